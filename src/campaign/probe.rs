@@ -239,7 +239,7 @@ impl Found<'_> {
     fn add(&mut self, part: usize, record: &Record) {
         let cycles = record.orbit.cycles;
         if self.parts.tiles.is_none() {
-            self.forecast.add(part, self.parts.count_cases(part), (1, cycles));
+            self.forecast.add(part, self.parts.count_cases(part), 1, cycles);
         }
         let done = self.begun.entry(part).or_default();
         *done += 1;

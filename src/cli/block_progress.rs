@@ -64,7 +64,7 @@ impl BlockProgress {
     /// Notes that a case of block `number`, which has so many, is done.
     pub fn case(&self, number: usize, cases: usize, record: &Record) {
         let mut state = self.state();
-        state.forecast.add(number, cases, (1, record.orbit.cycles));
+        state.forecast.add(number, cases, 1, record.orbit.cycles);
         let done = state.forecast.done().0;
         let last = state.recent.back().map_or(self.begun, |(at, _)| *at);
         if last.elapsed() < TICK {

@@ -129,8 +129,8 @@ fn find(
     let some = LINKS.div_ceil(layout.cells());
     for first in (0..layout.lines()).step_by(some) {
         let numbers = first..layout.lines().min(first + some);
-        let line = |number| Line::sorted(study, &layout, number, final_motions);
-        let lines: Vec<Line> = numbers.map(line).collect();
+        let lines: Vec<Line> =
+            numbers.map(|number| Line::sorted(study, &layout, number, final_motions)).collect();
         let links = links_of_lines(&lines, instructions, &linked);
         lines.iter().zip(&links).for_each(|(line, links)| line.add_to(&mut found, links));
     }
@@ -159,24 +159,33 @@ fn links_of_lines(
     });
     let model = lines[0].study.model();
     let links = together(order, &|next| {
-        let unlinked = |place: usize| {
-            let (line, at) = (place / last, place % last);
-            let neighbours = lines[line].neighbours(at)?;
-            let linear = [at, at + 1].map(|at| linear[line * (last + 1) + at].clone());
-            Some((place, Unlinked { neighbours, linear }))
-        };
-        model.links(instructions, &mut || unlinked(next()?), &mut || linked())
+        model.links(
+            instructions,
+            &mut || next().and_then(|place| Some((place, unlinked(lines, &linear, place)?))),
+            &mut || linked(),
+        )
     });
     let mut links = links.into_iter();
     lines.iter().map(|_| links.by_ref().take(last).collect()).collect()
+}
+
+/// The cells of a link, by its place among those of some lines, with the derivatives of their orbits.
+fn unlinked(lines: &[Line<'_>], linear: &[LinearOrbits], link: usize) -> Option<Unlinked> {
+    let last = lines[0].cells.len() - 1;
+    let (line, at) = (link / last, link % last);
+    let neighbours = lines[line].neighbours(at)?;
+    let linear = [at, at + 1].map(|at| linear[line * (last + 1) + at].clone());
+    Some(Unlinked { neighbours, linear })
 }
 
 /// The attractors of all cells of some lines along a parameter, line by line, with their derivatives.
 fn linear_orbits(lines: &[Line<'_>], instructions: Instructions) -> Vec<LinearOrbits> {
     let (model, length) = (lines[0].study.model(), lines[0].cells.len());
     together((0..lines.len() * length).collect(), &|next| {
-        let cell = |place: usize| Some((place, lines[place / length].cell(place % length)?));
-        model.linear_orbits(instructions, &mut || cell(next()?))
+        model.linear_orbits(instructions, &mut || {
+            let place = next()?;
+            Some((place, lines[place / length].cell(place % length)?))
+        })
     })
 }
 
@@ -197,17 +206,24 @@ impl<'a> Line<'a> {
         number: usize,
         final_motions: &FinalMotions,
     ) -> Self {
-        let sort = |at: usize| {
-            let final_motion = |place: usize| {
+        let line = Line { study, layout, number, cells: Vec::new() };
+        let cells = (0..layout.cells()).into_par_iter();
+        let cells = cells.map(|at| Arc::new(line.sorted_cell(at, final_motions))).collect();
+        Line { cells, ..line }
+    }
+
+    /// The cases of the cell at a place of the axis, sorted by attractor.
+    fn sorted_cell(&self, at: usize, final_motions: &FinalMotions) -> Table<Section> {
+        let Line { study, layout, number, .. } = *self;
+        let setting = Setting::of(&study.case(layout.case(number, at, 0)));
+        let motions = Motions {
+            count: layout.cases(),
+            at: &|place| {
                 let case = layout.case(number, at, place);
                 (case, final_motions.get(case))
-            };
-            let motions = Motions { count: layout.cases(), at: &final_motion };
-            let setting = Setting::of(&study.case(layout.case(number, at, 0)));
-            Arc::new(study.model().table(&setting, motions, &study.protocol, &Rayon))
+            },
         };
-        let cells = (0..layout.cells()).into_par_iter().map(sort).collect();
-        Line { study, layout, number, cells }
+        study.model().table(&setting, motions, &study.protocol, &Rayon)
     }
 
     /// What is held at a place of the axis, and the value there; none where the axis is no parameter.
@@ -242,10 +258,10 @@ impl<'a> Line<'a> {
     /// Adds its attractors, which go on so from cell to cell, to those of a study.
     fn add_to(&self, found: &mut Attractors, links: &[Links<Section>]) {
         let Line { study, layout, cells, .. } = self;
-        let between = |at: usize| self.neighbours(at);
-        let bridges = study.model().bridges(cells, links, &between, &Rayon);
-        let numbers = numbers(cells, links, &bridges);
-        found.events.extend(events(cells, links, &bridges, &numbers));
+        let bridges = study.model().bridges(cells, links, &|at| self.neighbours(at), &Rayon);
+        let linked = LinkedCells { cells, links, bridges: &bridges };
+        let numbers = linked.numbers();
+        found.events.extend(linked.events(&numbers));
         self.note(&numbers, &mut found.of_case);
         if let ([cell], 1) = (&cells[..], layout.lines()) {
             let numbered = cell.order.iter().map(|&place| cell.attractors[place].clone());
@@ -271,10 +287,13 @@ type OfThread<'a, T> = dyn Fn(&mut dyn FnMut() -> Option<usize>) -> Vec<(usize, 
 /// rising places.
 fn together<T: Send>(places: Vec<usize>, of_thread: &OfThread<'_, T>) -> Vec<T> {
     let taken = AtomicUsize::new(0);
-    let compute = |_| of_thread(&mut || places.get(taken.fetch_add(1, Ordering::Relaxed)).copied());
     let threads = rayon::current_num_threads().min(places.len().div_ceil(LEAST));
-    let mut results: Vec<(usize, T)> =
-        (0..threads).into_par_iter().flat_map_iter(compute).collect();
+    let mut results: Vec<(usize, T)> = (0..threads)
+        .into_par_iter()
+        .flat_map_iter(|_| {
+            of_thread(&mut || places.get(taken.fetch_add(1, Ordering::Relaxed)).copied())
+        })
+        .collect();
     results.sort_by_key(|(place, _)| *place);
     results.into_iter().map(|(_, result)| result).collect()
 }
@@ -299,63 +318,79 @@ fn leads(
     pairs
 }
 
-/// The numbers of the attractors of a line, cell by cell.
-fn numbers(
-    cells: &[Arc<Table<Section>>],
-    links: &[Links<Section>],
-    bridges: &[Bridge<Section>],
-) -> Vec<Vec<u32>> {
-    let mut numbers: Vec<Vec<u32>> = Vec::with_capacity(cells.len());
-    let mut count = 0;
-    for (at, cell) in cells.iter().enumerate() {
-        let before = |place: usize| {
-            let pairs = &links[at.checked_sub(1)?].pairs;
-            let pair = pairs.iter().find(|pair| pair[1] == place);
-            let bridge = || bridges.iter().find(|bridge| bridge.to == [at, place]);
-            let from = pair.map(|pair| [at - 1, pair[0]]).or_else(|| Some(bridge()?.from));
-            from.map(|[at, place]| numbers[at][place])
-        };
-        let mut here = vec![0; cell.attractors.len()];
-        for &place in &cell.order {
-            here[place] = before(place).unwrap_or_else(|| {
-                count += 1;
-                count - 1
-            });
-        }
-        numbers.push(here);
-    }
-    numbers
+/// The cells of a line, with how their attractors go on from one to another.
+struct LinkedCells<'a> {
+    cells: &'a [Arc<Table<Section>>],
+    /// How the attractors of each cell go on in the next.
+    links: &'a [Links<Section>],
+    /// The attractors that no case of the cells between shows.
+    bridges: &'a [Bridge<Section>],
 }
 
-/// The events of a line, in the order of the parameter.
-fn events(
-    cells: &[Arc<Table<Section>>],
-    links: &[Links<Section>],
-    bridges: &[Bridge<Section>],
-    numbers: &[Vec<u32>],
-) -> Vec<AttractorEvent> {
-    let mut events = Vec::new();
-    let mut add = |[at, place]: [usize; 2], special: &SpecialValue<Section>| {
-        events.push(AttractorEvent {
+impl LinkedCells<'_> {
+    /// The numbers of the attractors, cell by cell.
+    fn numbers(&self) -> Vec<Vec<u32>> {
+        let mut numbers: Vec<Vec<u32>> = Vec::with_capacity(self.cells.len());
+        let mut count = 0;
+        for (at, cell) in self.cells.iter().enumerate() {
+            let mut here = vec![0; cell.attractors.len()];
+            for &place in &cell.order {
+                let before = self.before(at, place).map(|[at, place]| numbers[at][place]);
+                here[place] = before.unwrap_or_else(|| {
+                    count += 1;
+                    count - 1
+                });
+            }
+            numbers.push(here);
+        }
+        numbers
+    }
+
+    /// The cell and the place of the attractor that goes on at this place of a cell; none where it begins there.
+    fn before(&self, at: usize, place: usize) -> Option<[usize; 2]> {
+        let last = at.checked_sub(1)?;
+        match self.links[last].pairs.iter().find(|pair| pair[1] == place) {
+            Some(pair) => Some([last, pair[0]]),
+            None => Some(self.bridges.iter().find(|bridge| bridge.to == [at, place])?.from),
+        }
+    }
+
+    /// The events, in the order of the parameter; `numbers` are those of the attractors.
+    fn events(&self, numbers: &[Vec<u32>]) -> Vec<AttractorEvent> {
+        let mut events = Vec::new();
+        for (at, links) in self.links.iter().enumerate() {
+            for side in [0, 1] {
+                for (place, special) in &links.special[side] {
+                    events.push(self.event(numbers, [at + side, *place], special));
+                }
+            }
+        }
+        for bridge in self.bridges {
+            for special in &bridge.special {
+                events.push(self.event(numbers, bridge.from, special));
+            }
+        }
+        events.sort_by(|a, b| a.value.total_cmp(&b.value).then(a.attractor.cmp(&b.attractor)));
+        // What two cells know of the same special point counts once.
+        events.dedup_by(|b, a| a.is(b));
+        events
+    }
+
+    /// A special point of the attractor at a place of a cell.
+    fn event(
+        &self,
+        numbers: &[Vec<u32>],
+        [at, place]: [usize; 2],
+        special: &SpecialValue<Section>,
+    ) -> AttractorEvent {
+        AttractorEvent {
             kind: special.kind,
             attractor: numbers[at][place],
-            case: cells[at].attractors[place].case,
+            case: self.cells[at].attractors[place].case,
             value: special.value,
             uncertainty: special.uncertainty,
             period: special.period,
             section: special.section,
-        });
-    };
-    for (at, links) in links.iter().enumerate() {
-        for side in [0, 1] {
-            links.special[side].iter().for_each(|(place, it)| add([at + side, *place], it));
         }
     }
-    for bridge in bridges {
-        bridge.special.iter().for_each(|special| add(bridge.from, special));
-    }
-    events.sort_by(|a, b| a.value.total_cmp(&b.value).then(a.attractor.cmp(&b.attractor)));
-    // What two cells know of the same special point counts once.
-    events.dedup_by(|b, a| a.is(b));
-    events
 }

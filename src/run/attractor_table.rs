@@ -103,19 +103,7 @@ pub fn attractor_table(
         CaseSet::Draws(draws) => shares_of_draws(draws.count, label, found.len()),
         CaseSet::Grid(_) => shares_of_grid(&study.shape(), label, found.len()),
     };
-    // A chain of such a study is one case, as no start is inherited from the same parameters.
-    let mut cases: Vec<usize> = found.iter().map(|it| it.case).collect();
-    cases.sort_unstable();
-    // Each with a certificate of its own.
-    let followed = Study { early_decision: false, ..study.clone() };
-    let records = run_sample(&followed, machine, &cases, || ())?;
-    let row = |(attractor, share): (&Attractor<Section>, Share)| {
-        let place = cases.binary_search(&attractor.case).expect("it is among them");
-        let attractor = begun_at_least(study, attractor.clone());
-        let record = records[place].clone();
-        AttractorRow { attractor, record, share, integrity: None, shock: f64::NAN, settling: None }
-    };
-    let mut rows: Vec<AttractorRow> = found.iter().zip(shares).map(row).collect();
+    let mut rows = rows(study, found, shares, machine)?;
     if let Some(room) = Room::of(study, 0) {
         for (number, row) in (0..).zip(&mut rows) {
             row.integrity = Some(room.around(number, label));
@@ -133,6 +121,28 @@ pub fn attractor_table(
     let edges = edges(study, attractors, machine);
     let inferred = check_starts(study, attractors, final_motions, machine)?;
     Ok(AttractorTable { rows, along: None, entropy, uncertainty, edges, inferred })
+}
+
+/// The rows of the attractors that are `found`, each with its share, but for what a grid of starts tells of their basins.
+fn rows(
+    study: &Study,
+    found: &[Attractor<Section>],
+    shares: Vec<Share>,
+    machine: Machine,
+) -> Result<Vec<AttractorRow>, RunError> {
+    // A chain of such a study is one case, as no start is inherited from the same parameters.
+    let mut cases: Vec<usize> = found.iter().map(|it| it.case).collect();
+    cases.sort_unstable();
+    // Each with a certificate of its own.
+    let followed = Study { early_decision: false, ..study.clone() };
+    let records = run_sample(&followed, machine, &cases, || ())?;
+    let rows = found.iter().zip(shares).map(|(attractor, share)| {
+        let place = cases.binary_search(&attractor.case).expect("it is among them");
+        let attractor = begun_at_least(study, attractor.clone());
+        let record = records[place].clone();
+        AttractorRow { attractor, record, share, integrity: None, shock: f64::NAN, settling: None }
+    });
+    Ok(rows.collect())
 }
 
 /// The same, a periodic orbit from its least section point on.

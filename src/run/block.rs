@@ -35,16 +35,15 @@ pub fn run_blocks(
         (blocks[at], study.block(blocks[at]).end - (ends[at] - place))
     };
     let unfinished: Mutex<BTreeMap<usize, Vec<Record>>> = Mutex::default();
-    let keep = |block: usize, record: Record| {
+    let count = ends.last().copied().unwrap_or(0);
+    run_chains(study, machine, Chains { count, at }, |block, record| {
         done(block, &record)?;
         let Some(mut records) = whole(study, &unfinished, block, record) else {
             return ControlFlow::Continue(());
         };
         records.sort_by_key(|record| record.index);
         finished(block, records)
-    };
-    let count = ends.last().copied().unwrap_or(0);
-    run_chains(study, machine, Chains { count, at }, keep)
+    })
 }
 
 /// All records of a block, if this was the last that it lacked.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard};
 
 use rayon::prelude::*;
 
@@ -38,11 +38,11 @@ pub struct Record {
 /// Runs every case of `study` on `machine`, also of one that is to be refined, and hands each record to `keep`, which is called from any
 /// thread and in any order.
 pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Result<(), RunError> {
-    let keep = |_, record| {
+    let chains = Chains { count: study.chains(), at: &|place| (0, place) };
+    run_chains(study, machine, chains, |_, record| {
         keep(record);
         ControlFlow::Continue(())
-    };
-    run_chains(study, machine, Chains { count: study.chains(), at: &|place| (0, place) }, keep)
+    })
 }
 
 /// Runs some chains of `study`, each named once, on `machine`; calls `done` after each case, and returns the
@@ -54,13 +54,12 @@ pub fn run_sample(
     done: impl Fn() + Sync,
 ) -> Result<Vec<Record>, RunError> {
     let records = Mutex::new(Vec::new());
-    let keep = |_, record| {
+    let chains = Chains { count: chains.len(), at: &|place| (0, chains[place]) };
+    run_chains(study, machine, chains, |_, record| {
         done();
         records.lock().expect("no thread has panicked").push(record);
         ControlFlow::Continue(())
-    };
-    let chains = Chains { count: chains.len(), at: &|place| (0, chains[place]) };
-    run_chains(study, machine, chains, keep)?;
+    })?;
     let mut records = records.into_inner().expect("no thread has panicked");
     records.sort_by_key(|record: &Record| record.index);
     Ok(records)
@@ -145,13 +144,15 @@ pub(super) fn spread(place: usize, cases: usize) -> usize {
 /// So many worker threads; one per core for none.
 pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, RunError> {
     let stop = stop::current();
-    let obey = move |_| stop::obey(stop.clone());
-    let mut builder = rayon::ThreadPoolBuilder::new().stack_size(STACK).start_handler(obey);
+    let mut builder = rayon::ThreadPoolBuilder::new()
+        .stack_size(STACK)
+        .start_handler(move |_| stop::obey(stop.clone()));
     if let Some(threads) = threads {
         builder = builder.num_threads(threads);
     }
-    let failed = |error| RunError(format!("the worker threads could not be started: {error}"));
-    builder.build().map_err(failed)
+    builder
+        .build()
+        .map_err(|error| RunError(format!("the worker threads could not be started: {error}")))
 }
 
 /// The results of `each` for so many numbers, in their order, computed on so many threads, all cores for none.
@@ -162,8 +163,8 @@ pub fn on_all_threads<T: Send>(
     count: usize,
     each: impl Fn(usize) -> T + Sync,
 ) -> Result<Vec<T>, RunError> {
-    let all = || (0..count).into_par_iter().with_max_len(1).map(&each).collect();
-    Ok(pool(threads)?.install(all))
+    let pool = pool(threads)?;
+    Ok(pool.install(|| (0..count).into_par_iter().with_max_len(1).map(&each).collect()))
 }
 
 /// The threads of the pool in which it is used.
@@ -189,6 +190,10 @@ struct Link {
 
 /// A case that has left the lanes unfinished, with what follows it.
 type Left = (Link, Box<dyn Unfinished>);
+
+fn locked(last: &Mutex<Vec<Left>>) -> MutexGuard<'_, Vec<Left>> {
+    last.lock().expect("no thread has panicked")
+}
 
 /// A thread with its part of the queue.
 struct Worker<'a, K> {
@@ -268,11 +273,10 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     fn work(mut self, instructions: Instructions, last: &Mutex<Vec<Left>>) {
         let (model, protocol, known) = (self.model, &self.study.protocol, self.known);
         let left = model.settle_queue(instructions, protocol, known, &mut self);
-        let lock = || last.lock().expect("no thread has panicked");
-        lock().extend(left.into_iter().map(|case| self.part_with(case)));
+        locked(last).extend(left.into_iter().map(|case| self.part_with(case)));
         loop {
             // In a statement of its own, so that the lock is free again.
-            let case = lock().pop();
+            let case = locked(last).pop();
             let Some((link, case)) = case else { break };
             if self.stopped.load(Ordering::Relaxed) {
                 break;

@@ -47,14 +47,12 @@ pub fn edges(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Ed
     let setting = Setting::of(&study.case(0));
     let known: Vec<_> = (0..).zip(&attractors.of_starts).collect();
     let leads = study.model().leads(&setting, &study.protocol, machine, &known);
-    let point = |case: usize| study.case(case).start.section();
     let mut found = BTreeMap::new();
     let mut between_others = Vec::new();
     for (between, all) in neighbours(study, attractors).into_iter().take(PAIRS) {
         for cases in spread_out(&all) {
-            let Some(Met { mut sides, saddle }) = leads.saddle(cases.map(point)) else {
-                break;
-            };
+            let points = cases.map(|case| study.case(case).start.section());
+            let Some(Met { mut sides, saddle }) = leads.saddle(points) else { break };
             sides.sort_unstable();
             if sides == between {
                 found.insert(between, saddle);

@@ -31,26 +31,30 @@ pub struct FinalMotions {
 impl FinalMotions {
     /// Those of a study, of which some cases are known, in any order; of a refined study only these are held.
     pub fn of(study: &Study, known: impl Iterator<Item = (usize, FinalMotion)>) -> FinalMotions {
-        let coordinates = study.base.model().section.len();
-        let blank = |cases: usize| FinalMotions {
-            cases: None,
-            motions: vec![None; cases],
-            points: vec![f64::NAN; coordinates * cases],
-            coordinates,
-        };
         if study.refine.is_some() {
             let mut known: Vec<(usize, FinalMotion)> = known.collect();
             known.sort_by_key(|(case, _)| *case);
             // Neighbouring tiles both have the cases between them.
             known.dedup_by_key(|(case, _)| *case);
             let cases = Some(known.iter().map(|(case, _)| *case).collect());
-            let mut all = FinalMotions { cases, ..blank(known.len()) };
+            let mut all = FinalMotions { cases, ..FinalMotions::blank(study, known.len()) };
             known.into_iter().enumerate().for_each(|(place, (_, motion))| all.put(place, motion));
             return all;
         }
-        let mut all = blank(study.cases());
+        let mut all = FinalMotions::blank(study, study.cases());
         known.for_each(|(case, motion)| all.put(case, motion));
         all
+    }
+
+    /// Room for so many cases of a study, of which none is known.
+    fn blank(study: &Study, cases: usize) -> FinalMotions {
+        let coordinates = study.base.model().section.len();
+        FinalMotions {
+            cases: None,
+            motions: vec![None; cases],
+            points: vec![f64::NAN; coordinates * cases],
+            coordinates,
+        }
     }
 
     /// Bytes that are held of each case of a study.
@@ -67,8 +71,9 @@ impl FinalMotions {
 
     /// What stands at a place among those that are held.
     fn at(&self, place: usize) -> Option<FinalMotion> {
-        let point = || Section::new(&self.points[self.coordinates * place..][..self.coordinates]);
-        self.motions[place].map(|motion| motion.map(|()| point()))
+        let motion = self.motions[place]?;
+        let point = &self.points[self.coordinates * place..][..self.coordinates];
+        Some(motion.map(|()| Section::new(point)))
     }
 
     /// What a case has settled to; none if it has not been computed.
@@ -81,15 +86,18 @@ impl FinalMotions {
 
     /// The cases that have been computed, in the order of their indices.
     pub fn known(&self) -> impl Iterator<Item = (usize, FinalMotion)> + '_ {
-        let case = |place: usize| self.cases.as_ref().map_or(place, |cases| cases[place]);
-        (0..self.motions.len()).filter_map(move |place| Some((case(place), self.at(place)?)))
+        (0..self.motions.len()).filter_map(|place| Some((self.case(place), self.at(place)?)))
+    }
+
+    /// The case at a place among those that are held.
+    fn case(&self, place: usize) -> usize {
+        self.cases.as_ref().map_or(place, |cases| cases[place])
     }
 }
 
 /// The summaries of the cases of a study by index.
 pub fn final_motions(study: &Study, records: &[Record]) -> FinalMotions {
-    let of = |record: &Record| (record.index, final_motion(&record.orbit));
-    FinalMotions::of(study, records.iter().map(of))
+    FinalMotions::of(study, records.iter().map(|it| (it.index, final_motion(&it.orbit))))
 }
 
 #[cfg(test)]

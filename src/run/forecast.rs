@@ -30,6 +30,18 @@ struct Begun {
     cycles: u64,
 }
 
+impl Begun {
+    /// Cycles of a case on average.
+    fn mean(&self) -> f64 {
+        self.cycles as f64 / self.done.max(1) as f64
+    }
+
+    /// Its part of so many cases.
+    fn weight(&self, cases: usize) -> f64 {
+        self.cases as f64 / cases as f64
+    }
+}
+
 /// A number with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
@@ -46,7 +58,7 @@ impl Forecast {
     }
 
     /// Takes note that `done` more of the `cases` of block `number` are done, in so many cycles.
-    pub fn add(&mut self, number: usize, cases: usize, (done, cycles): (usize, u64)) {
+    pub fn add(&mut self, number: usize, cases: usize, done: usize, cycles: u64) {
         let nothing = Begun { cases, done: 0, cycles: 0 };
         let block = self.blocks.entry(number).or_insert(nothing);
         block.done += done;
@@ -77,11 +89,9 @@ impl Forecast {
         if begun == 0 {
             return None;
         }
-        let mean = |block: &Begun| block.cycles as f64 / block.done.max(1) as f64;
-        let weight = |block: &Begun| block.cases as f64 / begun as f64;
-        let all: f64 = self.blocks.values().map(|block| mean(block) * weight(block)).sum();
+        let all: f64 = self.blocks.values().map(|it| it.mean() * it.weight(begun)).sum();
         let squares = self.blocks.values().map(|block| {
-            let off = (mean(block) - all) * weight(block);
+            let off = (block.mean() - all) * block.weight(begun);
             off * off
         });
         let count = self.blocks.len() as f64;
@@ -118,10 +128,10 @@ mod tests {
     fn equal_blocks_are_foretold_exactly() {
         let mut forecast = Forecast::new(1000);
         assert_eq!(forecast.cycles(), None);
-        forecast.add(0, 100, (100, 5000));
+        forecast.add(0, 100, 100, 5000);
         let first = forecast.cycles().expect("an estimate");
         assert!(first.value == 50_000.0 && first.error.is_nan());
-        (1..8).for_each(|block| forecast.add(block, 100, (100, 5000)));
+        (1..8).for_each(|block| forecast.add(block, 100, 100, 5000));
         assert_eq!(forecast.cycles(), Some(Estimate { value: 50_000.0, error: 0.0 }));
         assert_eq!(forecast.seconds_left(0.002), Some(Estimate { value: 20.0, error: 0.0 }));
         assert_eq!(forecast.done(), (800, 40_000));
@@ -133,7 +143,7 @@ mod tests {
         let truth: u64 = costs.iter().sum();
         let mut forecast = Forecast::new(200 * 512);
         for (done, block) in spread(costs.len()).into_iter().enumerate() {
-            forecast.add(block, 512, (512, costs[block]));
+            forecast.add(block, 512, 512, costs[block]);
             let Estimate { value, error } = forecast.cycles().expect("an estimate");
             assert!(done < 9 || (value - truth as f64).abs() <= 3.0 * error + 1.0, "{done}");
         }
@@ -151,7 +161,7 @@ mod tests {
         let budget = 100_000;
         for block in 0..40 {
             let done = (budget / cycles(block)).min(cases as u64);
-            forecast.add(block as usize, cases, (done as usize, done * cycles(block)));
+            forecast.add(block as usize, cases, done as usize, done * cycles(block));
         }
         let Estimate { value, .. } = forecast.cycles().expect("an estimate");
         assert!((value - truth as f64).abs() < 1e-6 * truth as f64, "{value} {truth}");

@@ -27,9 +27,9 @@ pub fn check_starts(
     final_motions: &FinalMotions,
     machine: Machine,
 ) -> Result<Option<InferredSample>, RunError> {
-    let is_inferred =
-        |case: usize| attractors.of_case[case].is_some() && final_motions.get(case).is_none();
-    let sample = sample(study.cases(), is_inferred);
+    let sample = sample(study.cases(), |case| {
+        attractors.of_case[case].is_some() && final_motions.get(case).is_none()
+    });
     if sample.is_empty() {
         return Ok(None);
     }
@@ -48,11 +48,8 @@ fn elsewhere(
     let known: Vec<_> = (0..).zip(&attractors.of_starts).collect();
     let setting = Setting::of(&study.case(0));
     let leads = study.model().leads(&setting, &study.protocol, machine, &known);
-    let goes_elsewhere = |record: &&Record| {
-        let number = leads.number(&final_motion(&record.orbit));
-        number != attractors.of_case[record.index]
-    };
-    records.iter().filter(goes_elsewhere).count()
+    let numbers = records.iter().map(|it| leads.number(&final_motion(&it.orbit)));
+    numbers.zip(records).filter(|(number, it)| *number != attractors.of_case[it.index]).count()
 }
 
 /// Computes a sample of the cases of a refined map that are inferred, spread evenly over the grid; none where none is.
@@ -61,17 +58,16 @@ pub fn check_cases(
     inferred: &InferredCases,
     machine: Machine,
 ) -> Result<Option<InferredSample>, RunError> {
-    let place = |case: usize| inferred.cases.binary_search(&case).ok();
-    let sample = sample(study.cases(), |case| place(case).is_some());
+    let sample = sample(study.cases(), |case| inferred.place(case).is_some());
     if sample.is_empty() {
         return Ok(None);
     }
-    let is_elsewhere = |record: &&Record| {
-        let inferred = place(record.index).map(|place| inferred.at(study, place));
-        inferred.is_none_or(|it| !MapPoint::of_record(study, record).confirms(&it))
-    };
     let records = computed(study, &sample, machine)?;
-    let elsewhere = records.iter().filter(is_elsewhere).count();
+    let confirmed = records.iter().filter(|record| {
+        let inferred = inferred.place(record.index).map(|place| inferred.at(study, place));
+        inferred.is_some_and(|it| MapPoint::of_record(study, record).confirms(&it))
+    });
+    let elsewhere = records.len() - confirmed.count();
     Ok(Some(InferredSample { cases: sample.len(), elsewhere }))
 }
 

@@ -23,11 +23,10 @@ impl MapPoint {
         (outcome, period): (Outcome, u32),
         output: impl Fn(Output) -> f64,
     ) -> MapPoint {
-        let value = |(of, most): &(Output, f64)| output(*of) / most;
         MapPoint {
             period: if outcome == Outcome::Periodic { period } else { 0 },
             rests: study.base.model().rest_share().is_some_and(|share| output(share) >= 1.0),
-            values: within(study).iter().map(value).collect(),
+            values: within(study).iter().map(|(of, most)| output(*of) / most).collect(),
         }
     }
 
@@ -76,13 +75,18 @@ pub struct InferredCases {
 }
 
 impl InferredCases {
+    /// The place of a case in the lists, if it is inferred.
+    pub(super) fn place(&self, case: usize) -> Option<usize> {
+        self.cases.binary_search(&case).ok()
+    }
+
     /// What is known of the case at a place of the lists, as if it had been computed.
     pub(super) fn at(&self, study: &Study, place: usize) -> MapPoint {
-        let value = |(values, (_, most)): (&Vec<f64>, &(Output, f64))| values[place] / most;
+        let values = self.values.iter().zip(within(study));
         MapPoint {
             period: self.periods[place],
             rests: self.rests[place],
-            values: self.values.iter().zip(within(study)).map(value).collect(),
+            values: values.map(|(values, (_, most))| values[place] / most).collect(),
         }
     }
 }

@@ -64,8 +64,7 @@ pub(super) fn computed(
 ) -> Result<Vec<Record>, RunError> {
     check(machine)?;
     let cases: Vec<(usize, usize)> = cases.iter().map(|&case| (case, 0)).collect();
-    let proceed = |_, _: &Record| ControlFlow::Continue(());
-    Ok(Runner::new(study, machine)?.compute(&cases, proceed))
+    Ok(Runner::new(study, machine)?.compute(&cases, |_, _| ControlFlow::Continue(())))
 }
 
 /// What computes the cases of a study on demand.
@@ -137,6 +136,14 @@ struct Set<S: Sorting> {
     records: Vec<Record>,
 }
 
+impl<S: Sorting + Default> Set<S> {
+    /// A tile of which no case has been computed.
+    fn tile(refinement: &Refinement, number: usize) -> Self {
+        let refining = Refining::tile(refinement, number, S::ALIKE);
+        Set { refining, sorting: S::default(), records: Vec::new() }
+    }
+}
+
 impl<'a> Runner<'a> {
     fn new(study: &'a Study, machine: Machine) -> Result<Self, RunError> {
         let known = known_orbits(study, machine);
@@ -170,12 +177,8 @@ impl<'a> Runner<'a> {
         finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
     ) {
         for numbers in numbers.chunks(TILES_TOGETHER) {
-            let tile = |&number| Set::<S> {
-                refining: Refining::tile(refinement, number, S::ALIKE),
-                sorting: S::default(),
-                records: Vec::new(),
-            };
-            let mut tiles: Vec<_> = numbers.iter().map(tile).collect();
+            let mut tiles: Vec<Set<S>> =
+                numbers.iter().map(|number| Set::tile(refinement, *number)).collect();
             if self.refine(&mut tiles, |place, record| done(numbers[place], record)).is_break() {
                 return;
             }
@@ -240,9 +243,9 @@ impl<'a> Runner<'a> {
                 return ControlFlow::Break(());
             }
             for (set, wanted) in sets.iter_mut().zip(&wanted) {
-                let place = |case| all.partition_point(|(other, _)| *other < case);
-                let own = wanted.iter().map(|&case| records[place(case)].clone());
-                let own: Vec<Record> = own.collect();
+                let places =
+                    wanted.iter().map(|case| all.partition_point(|(other, _)| other < case));
+                let own: Vec<Record> = places.map(|place| records[place].clone()).collect();
                 for (record, label) in own.iter().zip(set.sorting.labels(self, &own)) {
                     set.refining.note(record.index, label);
                 }
@@ -258,13 +261,13 @@ impl<'a> Runner<'a> {
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     ) -> Vec<Record> {
         let records = Mutex::new(Vec::with_capacity(cases.len()));
-        let keep = |place: usize, record: Record| {
+        let chains = Chains { count: cases.len(), at: &|place| (cases[place].1, cases[place].0) };
+        let known = self.known.as_ref();
+        run_on(&self.pool, self.study, self.machine, chains, known, &|place, record| {
             let told = done(place, &record);
             records.lock().expect("no thread has panicked").push(record);
             told
-        };
-        let chains = Chains { count: cases.len(), at: &|place| (cases[place].1, cases[place].0) };
-        run_on(&self.pool, self.study, self.machine, chains, self.known.as_ref(), &keep);
+        });
         let mut records = records.into_inner().expect("no thread has panicked");
         records.sort_by_key(|record: &Record| record.index);
         records

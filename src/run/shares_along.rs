@@ -41,39 +41,74 @@ pub fn shares_along(
     let mut shape = study.shape();
     shape.remove(axis);
     let count = attractors.of_case.iter().flatten().max().map_or(0, |most| *most as usize + 1);
-    let at_value = |at: usize| {
-        let case = |place: usize| layout.case(0, at, place);
-        let label = |place: usize| attractors.label(case(place), final_motions);
-        let motion = |number: usize| {
-            let own = Label::Attractor(number as u32);
-            let first = (0..layout.cases()).find(|place| label(*place) == own)?;
-            Some((case(first), final_motions.get(case(first))?))
-        };
-        let found: Vec<_> = (0..count).map(motion).collect();
-        let room = Room::of(study, case(0));
-        let integrity = |number: usize| {
-            found[number]?;
-            Some(room.as_ref()?.around(number as u32, label))
-        };
-        let orbit = |(number, found): (usize, &Option<(usize, FinalMotion)>)| {
-            let (case, motion) = (*found)?;
-            Some((number as u32, attractor_of(study, case, &motion)?))
-        };
-        let orbits: Vec<_> = found.iter().enumerate().filter_map(orbit).collect();
-        let known: Vec<_> = orbits.iter().map(|(number, it)| (*number, it)).collect();
-        let mut shock = vec![f64::NAN; count];
-        if room.is_some() {
-            let found = shocks(study, case(0), &known, machine);
-            orbits.iter().zip(found).for_each(|((number, _), it)| shock[*number as usize] = it);
-        }
+    let values = 0..layout.cells();
+    let starts =
+        values.map(|at| StartsAt { study, layout: &layout, at, attractors, final_motions });
+    Some(starts.map(|it| it.shares(&shape, count, machine)).collect())
+}
+
+/// The starts at one value of the parameter, by its place along the axis.
+struct StartsAt<'a> {
+    study: &'a Study,
+    layout: &'a Layout,
+    at: usize,
+    attractors: &'a Attractors,
+    final_motions: &'a FinalMotions,
+}
+
+impl StartsAt<'_> {
+    /// The case of a start.
+    fn case(&self, start: usize) -> usize {
+        self.layout.case(0, self.at, start)
+    }
+
+    /// What a start leads to.
+    fn label(&self, start: usize) -> Label {
+        self.attractors.label(self.case(start), self.final_motions)
+    }
+
+    /// The first case that leads to an attractor, and what it has settled to.
+    fn first_motion(&self, attractor: u32) -> Option<(usize, FinalMotion)> {
+        let own = Label::Attractor(attractor);
+        let first = self.case((0..self.layout.cases()).find(|start| self.label(*start) == own)?);
+        Some((first, self.final_motions.get(first)?))
+    }
+
+    /// The shares of so many attractors among the starts, which lie on a grid of this shape.
+    fn shares(&self, shape: &[usize], count: usize, machine: Machine) -> SharesAt {
+        let found: Vec<_> = (0..count).map(|number| self.first_motion(number as u32)).collect();
+        let room = Room::of(self.study, self.case(0));
+        let integrity = found.iter().enumerate().map(|(number, found)| {
+            found.as_ref()?;
+            Some(room.as_ref()?.around(number as u32, |start| self.label(start)))
+        });
         SharesAt {
-            shares: shares_of_grid(&shape, label, count),
+            shares: shares_of_grid(shape, |start| self.label(start), count),
             motions: found.iter().map(|it| it.map(|(_, it)| (it.outcome, it.period))).collect(),
-            integrity: (0..count).map(integrity).collect(),
-            shock,
+            integrity: integrity.collect(),
+            shock: match room {
+                Some(_) => self.shocks(&found, machine),
+                None => vec![f64::NAN; count],
+            },
         }
-    };
-    Some((0..layout.cells()).map(at_value).collect())
+    }
+
+    /// The minimal critical shock of each attractor that is `found`, by its first case; NaN where none is known.
+    fn shocks(&self, found: &[Option<(usize, FinalMotion)>], machine: Machine) -> Vec<f64> {
+        let orbits = (0..).zip(found).filter_map(|(number, found)| {
+            let (case, motion) = (*found)?;
+            Some((number, attractor_of(self.study, case, &motion)?))
+        });
+        let orbits: Vec<(u32, Attractor<Section>)> = orbits.collect();
+        let known: Vec<_> = orbits.iter().map(|(number, it)| (*number, it)).collect();
+        let mut all = vec![f64::NAN; found.len()];
+        for ((number, _), shock) in
+            known.iter().zip(shocks(self.study, self.case(0), &known, machine))
+        {
+            all[*number as usize] = shock;
+        }
+        all
+    }
 }
 
 /// The attractor that a case has settled to, followed once more.

@@ -26,13 +26,14 @@ pub(super) fn shocks(
     }
     let setting = Setting::of(&study.case(case));
     let leads = study.model().leads(&setting, &study.protocol, machine, known);
-    let is_disturbed = |it: &Attractor<Section>| (1..=MOST_POINTS).contains(&it.points.len());
-    let shock = |(number, attractor): &(u32, &Attractor<Section>)| {
+    let shocks = known.iter().map(|(number, attractor)| {
+        if !(1..=MOST_POINTS).contains(&attractor.points.len()) {
+            return None;
+        }
         // To a section point of any other attractor is a shock.
-        let others = known.iter().filter(|(other, _)| other != number);
-        let first = others.flat_map(|(_, other)| &other.points).next();
-        let (Some(first), true) = (first, is_disturbed(attractor)) else { return f64::NAN };
-        leads.shock(*number, &attractor.points, first).unwrap_or(f64::NAN)
-    };
-    known.iter().map(shock).collect()
+        let mut others = known.iter().filter(|(other, _)| other != number);
+        let first = others.find_map(|(_, other)| other.points.first())?;
+        leads.shock(*number, &attractor.points, first)
+    });
+    shocks.map(|shock| shock.unwrap_or(f64::NAN)).collect()
 }
