@@ -7,6 +7,7 @@ use clap::Args;
 use super::arguments::plain_or_quantity;
 use crate::quantity::Dimension;
 use crate::quantity::units::parse_in;
+use crate::study::appearance::SettingText;
 use crate::study::document::unknown;
 use crate::study::drawing::check_text;
 use crate::study::{Drawing, Setting, Size};
@@ -112,7 +113,7 @@ impl Appearance {
         }
         for (key, setting) in Setting::NAMES {
             for text in self.of(setting) {
-                let put = put(&mut drawing, (setting, text), dimension_of);
+                let put = put(&mut drawing, setting, text, dimension_of);
                 let option = key.replace('_', "-");
                 faults.extend(put.err().map(|fault| format!("--{option} {text}: {fault}")));
             }
@@ -160,7 +161,8 @@ fn placed(
 /// Sets what "NAME=VALUE" says.
 fn put(
     drawing: &mut Drawing,
-    (setting, text): (Setting, &str),
+    setting: Setting,
+    text: &str,
     dimension_of: DimensionOf<'_>,
 ) -> Result<(), String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
@@ -170,5 +172,5 @@ fn put(
         false => vec![value.to_owned()],
     };
     let settings = drawing.settings.entry(name.trim().to_owned()).or_default();
-    settings.put(setting, dimension, (&parts, plain_or_quantity))
+    settings.put(setting, SettingText { parts: &parts, dimension, read: plain_or_quantity })
 }

@@ -190,41 +190,77 @@ pub fn dimension_of(name: &str, model: &'static Description) -> Result<Dimension
 /// Reads a quantity of a dimension (SI).
 pub type ReadQuantity = fn(&str, Dimension) -> Result<f64, String>;
 
+/// What a text says of a setting of a quantity.
+#[derive(Debug, Clone, Copy)]
+pub struct SettingText<'a> {
+    /// The parts of the text.
+    pub parts: &'a [String],
+    /// The dimension of the quantity.
+    pub dimension: Dimension,
+    /// How values of the quantity are read.
+    pub read: ReadQuantity,
+}
+
+impl SettingText<'_> {
+    /// All parts as values.
+    fn values(&self) -> Result<Vec<f64>, String> {
+        self.parts.iter().map(|part| self.value(part)).collect()
+    }
+
+    /// The only part.
+    fn one(&self) -> Result<&str, String> {
+        match self.parts {
+            [one] => Ok(one.as_str()),
+            _ => Err(format!("expected one value, found {}", self.parts.len())),
+        }
+    }
+
+    /// A finite value of the quantity.
+    fn value(&self, text: &str) -> Result<f64, String> {
+        let value = (self.read)(text, self.dimension)?;
+        if value.is_finite() { Ok(value) } else { Err(format!("{value} is not a finite number")) }
+    }
+
+    /// "linear", "log", "symlog" or "symlog WIDTH".
+    fn scale(&self) -> Result<ScaleChoice, String> {
+        let text = self.one()?;
+        let known = ScaleChoice::NAMES.iter().find(|it| it.0 == text).map(|it| it.1);
+        if let Some(width) = text.strip_prefix("symlog ") {
+            let width = self.value(width)?;
+            let expected = "the width of the linear part of a symlog scale must be above 0";
+            return (width > 0.0)
+                .then_some(ScaleChoice::Symlog(Some(width)))
+                .ok_or(expected.to_owned());
+        }
+        known.ok_or_else(|| unknown("scale", text, ScaleChoice::NAMES.iter().map(|it| it.0)))
+    }
+}
+
 impl QuantitySettings {
-    /// Sets what the text `parts` of a setting say of a quantity of this dimension.
+    /// Sets what a text says of a setting.
     ///
     /// # Errors
     ///
     /// Says what is wrong and expected.
-    pub fn put(
-        &mut self,
-        setting: Setting,
-        dimension: Dimension,
-        (parts, read): (&[String], ReadQuantity),
-    ) -> Result<(), String> {
-        let values = || -> Result<Vec<f64>, String> {
-            parts.iter().map(|part| finite(part, dimension, read)).collect()
-        };
-        let one = || match parts {
-            [one] => Ok(one.as_str()),
-            _ => Err(format!("expected one value, found {}", parts.len())),
-        };
+    pub fn put(&mut self, setting: Setting, text: SettingText<'_>) -> Result<(), String> {
         match setting {
             Setting::Limits => {
-                let limits = <[f64; 2]>::try_from(values()?).ok().filter(|it| it[0] < it[1]);
+                let limits = <[f64; 2]>::try_from(text.values()?).ok().filter(|it| it[0] < it[1]);
                 self.limits = Some(limits.ok_or("expected two values, the lesser first")?);
             }
-            Setting::Contours => self.contours = values()?,
-            Setting::Centre => self.centre = Some(finite(one()?, dimension, read)?),
-            Setting::Scale => self.scale = Some(scale(one()?, dimension, read)?),
-            Setting::Unit => self.unit = Some(known_unit(one()?, dimension)?),
-            Setting::Label => self.label = Some(one()?.to_owned()),
+            Setting::Contours => self.contours = text.values()?,
+            Setting::Centre => self.centre = Some(text.value(text.one()?)?),
+            Setting::Scale => self.scale = Some(text.scale()?),
+            Setting::Unit => self.unit = Some(known_unit(text.one()?, text.dimension)?),
+            Setting::Label => self.label = Some(text.one()?.to_owned()),
             Setting::Decimals => {
-                let digits = one()?.parse().ok().filter(|it| *it <= MOST_DECIMALS);
-                let expected = || format!("expected a whole number, 0 to {MOST_DECIMALS}");
-                self.decimals = Some(digits.ok_or_else(expected)?);
+                let Some(digits) = text.one()?.parse().ok().filter(|it| *it <= MOST_DECIMALS)
+                else {
+                    return Err(format!("expected a whole number, 0 to {MOST_DECIMALS}"));
+                };
+                self.decimals = Some(digits);
             }
-            Setting::ColourMap => self.colour_map = Some(colouring(one()?)?),
+            Setting::ColourMap => self.colour_map = Some(colouring(text.one()?)?),
         }
         let reaches_zero = self.limits.is_some_and(|it| it[0] <= 0.0);
         if self.scale == Some(ScaleChoice::Log) && reaches_zero {
@@ -256,24 +292,6 @@ impl QuantitySettings {
     }
 }
 
-fn finite(text: &str, dimension: Dimension, read: ReadQuantity) -> Result<f64, String> {
-    let value = read(text, dimension)?;
-    if value.is_finite() { Ok(value) } else { Err(format!("{value} is not a finite number")) }
-}
-
-/// "linear", "log", "symlog" or "symlog WIDTH".
-fn scale(text: &str, dimension: Dimension, read: ReadQuantity) -> Result<ScaleChoice, String> {
-    let known = ScaleChoice::NAMES.iter().find(|it| it.0 == text).map(|it| it.1);
-    if let Some(width) = text.strip_prefix("symlog ") {
-        let width = finite(width, dimension, read)?;
-        let expected = "the width of the linear part of a symlog scale must be above 0";
-        return (width > 0.0)
-            .then_some(ScaleChoice::Symlog(Some(width)))
-            .ok_or(expected.to_owned());
-    }
-    known.ok_or_else(|| unknown("scale", text, ScaleChoice::NAMES.iter().map(|it| it.0)))
-}
-
 fn known_unit(text: &str, dimension: Dimension) -> Result<&'static str, String> {
     if text == NATURAL && dimension == Dimension::AngularFrequency {
         return Ok(NATURAL);
@@ -283,9 +301,9 @@ fn known_unit(text: &str, dimension: Dimension) -> Result<&'static str, String> 
     } else {
         String::new()
     };
-    let expected =
-        || format!("unknown unit \"{text}\"; expected that of {}{others}", expectation(dimension));
-    unit(text, dimension).map(|it| it.0).ok_or_else(expected)
+    unit(text, dimension).map(|it| it.0).ok_or_else(|| {
+        format!("unknown unit \"{text}\"; expected that of {}{others}", expectation(dimension))
+    })
 }
 
 fn colouring(text: &str) -> Result<Colouring, String> {
@@ -293,9 +311,9 @@ fn colouring(text: &str) -> Result<Colouring, String> {
         Some(name) => (name, true),
         None => (text, false),
     };
-    let map = ColourMap::NAMES.iter().find(|it| it.0 == name).map(|it| it.1);
-    let names = || ColourMap::NAMES.iter().map(|it| it.0);
-    let unknown =
-        || format!("{}, each with or without {REVERSED}", unknown("colour map", name, names()));
-    Ok(Colouring { map: map.ok_or_else(unknown)?, reversed })
+    let Some((_, map)) = ColourMap::NAMES.iter().find(|it| it.0 == name) else {
+        let fault = unknown("colour map", name, ColourMap::NAMES.iter().map(|it| it.0));
+        return Err(format!("{fault}, each with or without {REVERSED}"));
+    };
+    Ok(Colouring { map: *map, reversed })
 }

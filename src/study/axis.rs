@@ -167,12 +167,13 @@ impl Spacing {
     /// `points` values from `from` to `to`, both included, each computed from its index.
     pub fn values(self, from: f64, to: f64, points: usize) -> Vec<f64> {
         let last = points.saturating_sub(1);
-        let value = |i: usize| match i {
-            0 => from,
-            i if i == last => to,
-            i => self.at(from, to, i as f64 / last as f64),
-        };
-        (0..points).map(value).collect()
+        (0..points)
+            .map(|i| match i {
+                0 => from,
+                i if i == last => to,
+                i => self.at(from, to, i as f64 / last as f64),
+            })
+            .collect()
     }
 }
 

@@ -60,9 +60,8 @@ impl Study {
 /// Method: steps of the golden section, or of the next number that has no divisor in common with the number
 /// of blocks.
 pub fn spread(blocks: usize) -> Vec<usize> {
-    let coprime = |step: &usize| greatest_divisor(*step, blocks) == 1;
     let golden = (0.618_033_988_749_894_9 * blocks as f64) as usize;
-    let step = (golden.max(1)..).find(coprime).unwrap_or(1);
+    let step = (golden.max(1)..).find(|step| greatest_divisor(*step, blocks) == 1).unwrap_or(1);
     (0..blocks).map(|place| place * step % blocks).collect()
 }
 

@@ -90,25 +90,18 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
     let range = along.and_then(|along| read_range(table, along, study));
     let at = table.table("at");
     let parameters = read_place(table, at.as_ref(), study, &varied);
-    let start = match table.table("start") {
-        Some(table) => {
-            let start = read_state(&table, study.start.clone(), &[]);
-            table.finish();
-            start
-        }
-        None => study.start.clone(),
-    };
+    let start = read_own_start(table, study);
     let first = read_first(table);
     let (longest_step, most_points) = read_steps(table);
     let doublings = table.entry("doublings").and_then(|entry| entry.whole(0, MOST_DOUBLINGS));
     let (along, range, parameters) = (along?, range?, parameters?);
-    check_within(table, at.as_ref(), &parameters, (along, range));
+    check_within(table, at.as_ref(), &parameters, along, range);
     let second = match second {
         Some((parameter, range)) => Some((parameter?, range?)),
         None => None,
     };
-    if let Some(second) = second {
-        check_within(table, at.as_ref(), &parameters, second);
+    if let Some((parameter, range)) = second {
+        check_within(table, at.as_ref(), &parameters, parameter, range);
     }
     Some(Continuation {
         name: String::new(),
@@ -124,6 +117,14 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
         longest_step,
         most_points,
     })
+}
+
+/// Where the first orbit is looked for.
+fn read_own_start(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Start {
+    let Some(table) = table.table("start") else { return study.start.clone() };
+    let start = read_state(&table, study.start.clone(), &[]);
+    table.finish();
+    start
 }
 
 /// The parameter that `key` names.
@@ -144,19 +145,8 @@ fn read_range(
     study: &Surroundings<'_>,
 ) -> Option<[f64; 2]> {
     let ends = study.ends(parameter);
-    let end = |key: &str, usual: Option<f64>| {
-        let Some(entry) = table.entry(key) else {
-            // An axis without values has its fault noted already.
-            if !study.varies(parameter) {
-                let expected =
-                    format!("a value, as no axis varies the {} here", parameter.meaning());
-                table.missing(key, &expected);
-            }
-            return usual;
-        };
-        entry.allowed_quantity(parameter.dimension(), parameter.allowed())
-    };
-    let (from, to) = (end("from", ends.map(|ends| ends[0])), end("to", ends.map(|ends| ends[1])));
+    let from = read_end(table, "from", parameter, study, ends.map(|ends| ends[0]));
+    let to = read_end(table, "to", parameter, study, ends.map(|ends| ends[1]));
     let (from, to) = (from?, to?);
     if from == to {
         let message = "the branch would end where it begins";
@@ -167,6 +157,25 @@ fn read_range(
         return None;
     }
     Some([from.min(to), from.max(to)])
+}
+
+/// The end that `key` gives, or that of the axis.
+fn read_end(
+    table: &Table<'_, '_>,
+    key: &str,
+    parameter: Parameter,
+    study: &Surroundings<'_>,
+    of_axis: Option<f64>,
+) -> Option<f64> {
+    let Some(entry) = table.entry(key) else {
+        // An axis without values has its fault noted already.
+        if !study.varies(parameter) {
+            let expected = format!("a value, as no axis varies the {} here", parameter.meaning());
+            table.missing(key, &expected);
+        }
+        return of_axis;
+    };
+    entry.allowed_quantity(parameter.dimension(), parameter.allowed())
 }
 
 /// The second parameter with its range.
@@ -196,11 +205,10 @@ fn read_place(
 ) -> Option<Parameters> {
     let mut parameters = study.base.clone();
     let mut complete = true;
-    let on_axis = |parameter: &Parameter| study.varies(*parameter);
-    let open: Vec<Parameter> = study.base.model().parameters().filter(on_axis).collect();
+    let open: Vec<Parameter> =
+        study.base.model().parameters().filter(|parameter| study.varies(*parameter)).collect();
     let given: BTreeMap<String, Entry<'_, '_>> =
         at.map(Table::entries).unwrap_or_default().into_iter().collect();
-    let names = || open.iter().chain(varied).map(|parameter| parameter.symbol());
     for (name, entry) in &given {
         let named = study.base.model().parameter(name);
         match named.filter(|it| open.contains(it) || varied.contains(it)) {
@@ -209,7 +217,10 @@ fn read_place(
                 parameters[parameter] = value.unwrap_or(parameters[parameter]);
                 complete &= value.is_some();
             }
-            None => entry.fault(unknown("parameter that varies", name, distinct(names()))),
+            None => {
+                let names = open.iter().chain(varied).map(|parameter| parameter.symbol());
+                entry.fault(unknown("parameter that varies", name, distinct(names)));
+            }
         }
     }
     for parameter in open.iter().filter(|parameter| !given.contains_key(parameter.symbol())) {
@@ -236,7 +247,8 @@ fn check_within(
     table: &Table<'_, '_>,
     at: Option<&Table<'_, '_>>,
     parameters: &Parameters,
-    (parameter, [from, to]): (Parameter, [f64; 2]),
+    parameter: Parameter,
+    [from, to]: [f64; 2],
 ) {
     let value = parameters[parameter];
     if (from..=to).contains(&value) {

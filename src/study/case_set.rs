@@ -104,17 +104,19 @@ impl CaseSet {
 
     /// Leaves out all but the first few values of each dimension, and the last of an axis, so that it keeps its range.
     pub fn truncate(&mut self, most: usize) {
-        let shorten = |values: &mut Vec<f64>| {
-            if let Some(last) = values.last().copied().filter(|_| values.len() > most) {
-                values.truncate(most.saturating_sub(1));
-                values.push(last);
-            }
-        };
         match self {
             CaseSet::Grid(grid) => {
-                grid.axes.iter_mut().for_each(|axis| shorten(&mut axis.values));
+                grid.axes.iter_mut().for_each(|axis| shorten(&mut axis.values, most));
             }
             CaseSet::Draws(draws) => draws.count = draws.count.min(most),
         }
+    }
+}
+
+/// Leaves out all but the first few values and the last.
+fn shorten(values: &mut Vec<f64>, most: usize) {
+    if let Some(last) = values.last().copied().filter(|_| values.len() > most) {
+        values.truncate(most.saturating_sub(1));
+        values.push(last);
     }
 }

@@ -7,16 +7,6 @@ use super::{Coordinate, Fault, Refine, Study};
 impl Study {
     /// What is not the same in the study that was `read` back, in these words.
     pub(super) fn differences(&self, read: &Study, words: Words) -> Vec<Fault> {
-        let mut own = self.clone();
-        // What is held constant of a coordinate that varies does not count.
-        for coordinate in self.case_set.varied() {
-            match coordinate {
-                Coordinate::Parameter(parameter) => own.base[parameter] = read.base[parameter],
-                Coordinate::Start(coordinate) => own.start[coordinate] = read.start[coordinate],
-                Coordinate::StartPhase => own.start_phase = read.start_phase,
-                Coordinate::SectionPhase => own.section_phase = read.section_phase,
-            }
-        }
         // Named one by one, so that no field of a study is forgotten here.
         let Study {
             title,
@@ -33,7 +23,7 @@ impl Study {
             outputs,
             branches,
             drawings,
-        } = &own;
+        } = &self.with_varied_of(read);
         let mut compared = Compared { words, faults: Vec::new() };
         compared.part("title", title, &read.title);
         compared.part("outputs", outputs, &read.outputs);
@@ -50,6 +40,20 @@ impl Study {
         compared.each("branches", branches, &read.branches);
         compared.each("figures", drawings, &read.drawings);
         compared.faults
+    }
+
+    /// The same with what another holds constant of the coordinates that vary, which does not count.
+    fn with_varied_of(&self, other: &Study) -> Study {
+        let mut study = self.clone();
+        for coordinate in self.case_set.varied() {
+            match coordinate {
+                Coordinate::Parameter(parameter) => study.base[parameter] = other.base[parameter],
+                Coordinate::Start(coordinate) => study.start[coordinate] = other.start[coordinate],
+                Coordinate::StartPhase => study.start_phase = other.start_phase,
+                Coordinate::SectionPhase => study.section_phase = other.section_phase,
+            }
+        }
+        study
     }
 }
 

@@ -6,6 +6,7 @@ use std::fmt;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+pub use super::unknown_name::{nearest, unknown};
 use crate::description::Description;
 use crate::quantity::printable::one_line;
 use crate::quantity::units::{expectation, parse_in};
@@ -80,8 +81,7 @@ impl<'a> Reader<'a> {
         let span = error.span().map(|span| span.start.min(self.text.len()));
         let at = span.or_else(|| self.first_line_with(error.message()));
         let line = at.and_then(|at| self.text.get(..at)).map(|before| before.matches('\n').count());
-        let is_noted = |fault: &Fault| fault.line == line.map(|line| line + 1);
-        if self.faults.borrow().iter().any(is_noted) {
+        if self.faults.borrow().iter().any(|it| it.line == line.map(|line| line + 1)) {
             return;
         }
         let found = line.and_then(|line| self.text.lines().nth(line)).map_or("", str::trim);
@@ -101,11 +101,10 @@ impl<'a> Reader<'a> {
                 Some(*end)
             })
             .collect();
-        let gives = |end: usize| {
+        let line = ends.partition_point(|&end| {
             let (_, errors) = DeTable::parse_recoverable(&self.text[..end]);
-            errors.iter().any(|error| error.message() == message)
-        };
-        let line = ends.partition_point(|&end| !gives(end));
+            errors.iter().all(|error| error.message() != message)
+        });
         (line < ends.len()).then(|| if line == 0 { 0 } else { ends[line - 1] })
     }
 
@@ -258,11 +257,18 @@ impl<'r, 'a> Entry<'r, 'a> {
 
     /// The value as text, or the elements of a list as texts; a number is written out.
     pub fn parts(&self) -> Option<Vec<String>> {
-        let one = |entry: &Entry<'r, 'a>| match entry.number() {
+        match self.is_list() {
+            true => self.list().iter().map(Entry::text_or_number).collect(),
+            false => Some(vec![self.text_or_number()?]),
+        }
+    }
+
+    /// The value as text; a number is written out.
+    fn text_or_number(&self) -> Option<String> {
+        match self.number() {
             Some(number) => Some(number.to_string()),
-            None => entry.text().map(str::to_owned),
-        };
-        if self.is_list() { self.list().iter().map(one).collect() } else { Some(vec![one(self)?]) }
+            None => self.text().map(str::to_owned),
+        }
     }
 
     /// Whether the value is a list.
@@ -345,52 +351,4 @@ impl<'r, 'a> Entry<'r, 'a> {
 
 fn article(noun: &str) -> &'static str {
     if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
-}
-
-/// A message about a name that is not known, with the nearest of those that are.
-pub fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>) -> String {
-    let known: Vec<&str> = known.collect();
-    if known.is_empty() {
-        return format!("unknown {what} \"{name}\" (there is none)");
-    }
-    let nearest = nearest(name, known.iter().copied());
-    let hint = match nearest {
-        Some(candidate) => format!("; did you mean \"{candidate}\"?"),
-        None => String::new(),
-    };
-    format!("unknown {what} \"{name}\"{hint} (allowed: {})", listed(name, known))
-}
-
-/// Names in a list; of many, those that are nearest to `name`, and how many others there are.
-fn listed(name: &str, mut known: Vec<&str>) -> String {
-    if known.len() <= MOST_LISTED {
-        return known.join(", ");
-    }
-    let others = known.len() - NEAREST_LISTED;
-    let distance = |candidate: &&str| strsim::damerau_levenshtein(name, candidate);
-    known.sort_by_key(|candidate| (!candidate.contains(name), distance(candidate)));
-    let nearest = known[..NEAREST_LISTED].join(", ");
-    format!("{nearest} and {others} others, which studies/README.md lists")
-}
-
-/// Names that a message lists at most, and how many of a longer list.
-const MOST_LISTED: usize = 40;
-const NEAREST_LISTED: usize = 10;
-
-/// The name among `known` that was probably meant: one that begins with it or has it among its words, else one that differs in few
-/// letters.
-pub fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
-    let begins = |candidate: &str| candidate.starts_with(name) && !name.is_empty();
-    let has_word = |candidate: &str| candidate.split(['_', '-']).any(|word| word == name);
-    let rank = |candidate: &str| match candidate {
-        _ if begins(candidate) => 0,
-        _ if has_word(candidate) => 1,
-        _ => 2,
-    };
-    let distance = |candidate: &str| strsim::damerau_levenshtein(name, candidate);
-    known
-        .map(|candidate| (rank(candidate), distance(candidate), candidate))
-        .filter(|&(rank, distance, _)| rank < 2 || distance <= 1 + name.chars().count() / 3)
-        .min_by_key(|&(rank, distance, _)| (rank, distance))
-        .map(|(_, _, candidate)| candidate)
 }

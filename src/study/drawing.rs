@@ -224,8 +224,10 @@ impl Size {
     pub fn check(self, value: f64) -> Result<(), String> {
         let (low, high) = self.range();
         let unit = if self == Size::Resolution { "" } else { " mm" };
-        let fault = || format!("{value}{unit} is not within {low} to {high}{unit}");
-        if (low..=high).contains(&value) { Ok(()) } else { Err(fault()) }
+        match (low..=high).contains(&value) {
+            true => Ok(()),
+            false => Err(format!("{value}{unit} is not within {low} to {high}{unit}")),
+        }
     }
 }
 

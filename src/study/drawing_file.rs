@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::appearance::{Setting, Settings, dimension_of};
+use super::appearance::{Setting, SettingText, Settings, dimension_of};
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
 use super::drawing::{COLOURED_BY, Held, Size, Sweep, Texts, check_panels, check_text};
 use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine};
-use crate::description::{Description, Output, Parameter};
+use crate::description::{Output, Parameter};
 use crate::quantity::{Dimension, parse_quantity};
 
 /// The unit of widths [m].
@@ -21,7 +21,8 @@ pub(super) fn read_drawings(
     top: &Table<'_, '_>,
     case_set: &CaseSet,
     branches: &[Continuation],
-    (outputs, refine): (&[Output], Option<&Refine>),
+    outputs: &[Output],
+    refine: Option<&Refine>,
 ) -> Vec<Drawing> {
     let entries = top.entry("figures").map(|entry| entry.list()).unwrap_or_default();
     let mut drawings: Vec<Drawing> = Vec::new();
@@ -37,9 +38,9 @@ pub(super) fn read_drawings(
                 "most cases of a refined map are inferred, which only maps and curves allow for",
             );
         }
-        let alike = |other: &Drawing| other.name.eq_ignore_ascii_case(&drawing.name);
-        if let Some(name) = table.entry("name").filter(|_| drawings.iter().any(alike)) {
-            // Not even in capitals: some disks take such names for one.
+        // Not even in capitals: some disks take such names for one.
+        let is_used = drawings.iter().any(|it| it.name.eq_ignore_ascii_case(&drawing.name));
+        if let (true, Some(name)) = (is_used, table.entry("name")) {
             name.fault(format!(
                 "the name \"{}\" is used twice; names must differ in more than capitals",
                 drawing.name
@@ -67,40 +68,16 @@ fn read_drawing(
     branches: &[Continuation],
     outputs: &[Output],
 ) -> Drawing {
-    let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", DrawingKind::NAMES));
-    if let (Some(kind), Some(entry)) = (kind, table.entry("kind"))
-        && !kind.suits(table.model())
-    {
-        entry.fault(table.model().without_trade_off());
-    }
+    let kind = read_kind(table);
     let names = abscissae(kind, axes, branches);
-    let axis = |key: &str| {
-        let name = table.entry(key)?.one_of("axis of this study", &names)?;
-        Some(name.to_owned())
-    };
-    for key in ["name", "kind"] {
-        if table.entry(key).is_none() {
-            table.missing(key, "a figure to have a name and a kind");
-        }
-    }
-    let size = |key: &str, (dimension, unit): (Dimension, f64), size: Size| {
-        let entry = table.entry(key)?;
-        let value = entry.quantity_in(dimension, unit)?;
-        size.check(value).map_err(|fault| entry.fault(fault)).ok()?;
-        Some(value)
-    };
-    let held = table.table("at").map(|at| read_at(&at, axes, kind)).unwrap_or_default();
-    let (at, panels) = held;
+    let (at, panels) = table.table("at").map(|at| read_at(&at, axes, kind)).unwrap_or_default();
     Drawing {
         name: table.entry("name").and_then(|entry| read_name(&entry)).unwrap_or_default(),
         kind: kind.unwrap_or(DrawingKind::Map),
         title: table.entry("title").and_then(|entry| entry.text()).map(str::to_owned),
-        x: axis("x"),
-        y: axis("y"),
-        of: table
-            .entry("of")
-            .map(|of| read_of(&of, kind, table.model(), outputs))
-            .unwrap_or_default(),
+        x: read_axis(table, "x", &names),
+        y: read_axis(table, "y", &names),
+        of: read_of(table, kind, outputs),
         at,
         panels,
         cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
@@ -108,10 +85,10 @@ fn read_drawing(
         colour_by: table.entry("colour_by").and_then(|it| read_colour_by(&it, kind, axes, outputs)),
         curves: table.entry("curves").is_some_and(|entry| read_curves(&entry, kind)),
         branches: table.entry("branches").and_then(|entry| entry.truth()).unwrap_or(true),
-        width_mm: size("width", (Dimension::Length, MILLIMETRE), Size::Width),
-        height_mm: size("height", (Dimension::Length, MILLIMETRE), Size::Height),
-        dpi: size("dpi", (Dimension::Number, 1.0), Size::Resolution),
-        marker_mm: size("marker_size", (Dimension::Length, MILLIMETRE), Size::Marker),
+        width_mm: read_size(table, "width", Size::Width),
+        height_mm: read_size(table, "height", Size::Height),
+        dpi: read_size(table, "dpi", Size::Resolution),
+        marker_mm: read_size(table, "marker_size", Size::Marker),
         hide: table.entry("hide").map(|it| read_hide(&it, kind)).unwrap_or_default(),
         texts: table.table("texts").map(|it| read_texts(&it)).unwrap_or_default(),
         legend: table.entry("legend").and_then(|entry| entry.truth()).unwrap_or(true),
@@ -121,6 +98,40 @@ fn read_drawing(
     }
 }
 
+/// The kind of a figure, if it is known; a figure lacks neither it nor a name.
+fn read_kind(table: &Table<'_, '_>) -> Option<DrawingKind> {
+    let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", DrawingKind::NAMES));
+    if let (Some(kind), Some(entry)) = (kind, table.entry("kind"))
+        && !kind.suits(table.model())
+    {
+        entry.fault(table.model().without_trade_off());
+    }
+    for key in ["name", "kind"] {
+        if table.entry(key).is_none() {
+            table.missing(key, "a figure to have a name and a kind");
+        }
+    }
+    kind
+}
+
+/// What a figure runs along, one of these names.
+fn read_axis(table: &Table<'_, '_>, key: &str, names: &[(&str, &str)]) -> Option<String> {
+    table.entry(key)?.one_of("axis of this study", names).map(str::to_owned)
+}
+
+/// A size, if it is allowed.
+fn read_size(table: &Table<'_, '_>, key: &str, size: Size) -> Option<f64> {
+    let entry = table.entry(key)?;
+    let value = match size {
+        Size::Resolution => entry.quantity(Dimension::Number)?,
+        Size::Width | Size::Height | Size::Marker => {
+            entry.quantity_in(Dimension::Length, MILLIMETRE)?
+        }
+    };
+    size.check(value).map_err(|fault| entry.fault(fault)).ok()?;
+    Some(value)
+}
+
 /// What is set of quantities: a table for each setting, with quantities by their names.
 fn read_settings(table: &Table<'_, '_>) -> Settings {
     let mut settings = Settings::new();
@@ -128,8 +139,8 @@ fn read_settings(table: &Table<'_, '_>) -> Settings {
         for (name, entry) in table.table(key).iter().flat_map(Table::entries) {
             let put = dimension_of(&name, table.model()).and_then(|dimension| {
                 let Some(parts) = entry.parts() else { return Ok(()) };
-                let of_name = settings.entry(name).or_default();
-                of_name.put(setting, dimension, (&parts, parse_quantity))
+                let text = SettingText { parts: &parts, dimension, read: parse_quantity };
+                settings.entry(name).or_default().put(setting, text)
             });
             put.err().into_iter().for_each(|message| entry.fault(message));
         }
@@ -181,12 +192,8 @@ fn read_name(entry: &Entry<'_, '_>) -> Option<String> {
 }
 
 /// The names of what is drawn, those that the kind of figure can show.
-fn read_of(
-    of: &Entry<'_, '_>,
-    kind: Option<DrawingKind>,
-    model: &'static Description,
-    outputs: &[Output],
-) -> Vec<String> {
+fn read_of(table: &Table<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) -> Vec<String> {
+    let Some(of) = table.entry("of") else { return Vec::new() };
     let list = of.list();
     let Some(kind) = kind else { return Vec::new() };
     let most = kind.keys().most;
@@ -202,9 +209,9 @@ fn read_of(
         of.fault("expected the coordinates of both axes, found one");
     }
     let names: Vec<(&str, &str)> =
-        kind.can_show(model, outputs).into_iter().map(|name| (name, name)).collect();
-    let known = |entry: &Entry<'_, '_>| entry.one_of("output for this kind of figure", &names);
-    list.iter().filter_map(known).map(str::to_owned).collect()
+        kind.can_show(table.model(), outputs).into_iter().map(|name| (name, name)).collect();
+    let known = list.iter().filter_map(|it| it.one_of("output for this kind of figure", &names));
+    known.map(str::to_owned).collect()
 }
 
 /// Whether curves of special points lie over a map.
@@ -220,8 +227,9 @@ fn read_curves(entry: &Entry<'_, '_>, kind: Option<DrawingKind>) -> bool {
 fn read_hide(entry: &Entry<'_, '_>, kind: Option<DrawingKind>) -> Vec<String> {
     let marks = kind.map_or(&[][..], |kind| kind.keys().marks);
     let names: Vec<(&str, &str)> = marks.iter().map(|name| (*name, *name)).collect();
-    let known = |entry: &Entry<'_, '_>| entry.one_of("mark of this kind of figure", &names);
-    entry.list().iter().filter_map(known).map(str::to_owned).collect()
+    let list = entry.list();
+    let known = list.iter().filter_map(|it| it.one_of("mark of this kind of figure", &names));
+    known.map(str::to_owned).collect()
 }
 
 /// The words that stand in a figure, each with its place.
@@ -283,13 +291,15 @@ fn read_cycles(entry: &Entry<'_, '_>) -> Option<[f64; 2]> {
     range
 }
 
+/// Whether a name is that of an axis, or its older one.
+fn is_named(axis: &Axis, name: &str) -> bool {
+    axis.coordinate.name() == name || older_name(axis).is_some_and(|it| it.0 == name)
+}
+
 fn read_at(table: &Table<'_, '_>, axes: &[Axis], kind: Option<DrawingKind>) -> Held {
     let (mut at, mut several, mut last) = (BTreeMap::new(), BTreeMap::new(), None);
     for (name, entry) in table.entries() {
-        let is_named = |axis: &Axis| {
-            axis.coordinate.name() == name || older_name(axis).is_some_and(|it| it.0 == name)
-        };
-        match axes.iter().position(is_named) {
+        match axes.iter().position(|axis| is_named(axis, &name)) {
             Some(place) if entry.is_list() => {
                 let values =
                     entry.list().iter().filter_map(|it| value_of(it, &axes[place])).collect();
@@ -312,9 +322,10 @@ fn read_at(table: &Table<'_, '_>, axes: &[Axis], kind: Option<DrawingKind>) -> H
             }
         }
     }
-    let named =
-        |(place, values): (usize, Vec<f64>)| (axes[place].coordinate.name().to_owned(), values);
-    let panels: Vec<(String, Vec<f64>)> = several.into_iter().map(named).collect();
+    let panels: Vec<(String, Vec<f64>)> = several
+        .into_iter()
+        .map(|(place, values)| (axes[place].coordinate.name().to_owned(), values))
+        .collect();
     if let (Err(fault), Some(entry)) = (check_panels(&panels), last) {
         entry.fault(fault);
     }

@@ -95,11 +95,11 @@ impl Grid {
     /// group.
     pub(super) fn chains_of_group(&self) -> usize {
         let Some(inherit) = &self.inherit else { return 1 };
-        let length = |direction: &Direction| match direction {
+        let chains = inherit.directions.iter().map(|direction| match direction {
             Direction::Upward | Direction::Downward => 1,
             Direction::Afresh => self.axes[inherit.axis].values.len(),
-        };
-        inherit.directions.iter().map(length).sum()
+        });
+        chains.sum()
     }
 
     /// Cases of such a group.

@@ -40,12 +40,11 @@ pub fn include(study: &str, file: &str, parameters: &str) -> Result<Included, St
     let (given, errors) = DeTable::parse_recoverable(parameters);
     if let Some(error) = errors.first() {
         let at = error.span().map_or(0, |span| span.start.min(parameters.len()));
-        let line = parameters[..at].matches('\n').count() + 1;
+        let line = line_of(parameters, at);
         return Err(format!("{shown}: line {line}: {}", error.message()));
     }
-    let line_of = |at: usize| parameters[..at].matches('\n').count() + 1;
     if let Some((key, _)) = given.get_ref().get_key_value(KEY) {
-        let line = line_of(key.span().start);
+        let line = line_of(parameters, key.span().start);
         return Err(format!(
             "{shown}: line {line}: {KEY}: a parameter file may include no other; put the values of that one here"
         ));
@@ -61,7 +60,7 @@ pub fn include(study: &str, file: &str, parameters: &str) -> Result<Included, St
     let mut lines = Vec::new();
     for (key, value) in values.iter() {
         let symbol = key.get_ref();
-        let line = line_of(key.span().start);
+        let line = line_of(parameters, key.span().start);
         if model.parameter(symbol).is_none() {
             return Err(format!(
                 "{shown}: line {line}: parameters.{}: is no parameter of the {}",
@@ -74,6 +73,11 @@ pub fn include(study: &str, file: &str, parameters: &str) -> Result<Included, St
         }
     }
     Ok(put_in(study, file, &lines))
+}
+
+/// The line of a byte of a text, counted from 1.
+fn line_of(text: &str, at: usize) -> usize {
+    text[..at].matches('\n').count() + 1
 }
 
 /// The parameters that a study sets or varies itself.
@@ -94,15 +98,14 @@ fn set_by(document: &DeTable<'_>) -> Vec<String> {
 
 /// The study with these lines in its table of parameters, and its `include` as a comment.
 fn put_in(study: &str, file: &str, lines: &[String]) -> Included {
-    let is = |line: &str, begins: &str| line.trim_start().starts_with(begins);
     let mut text: Vec<String> = Vec::new();
     let mut at = None;
     for line in study.lines() {
-        let names_file = at.is_none()
-            && is(line, KEY)
-            && line.trim_start()[KEY.len()..].trim_start().starts_with('=');
-        text.push(if names_file { format!("# {}", line.trim_start()) } else { line.to_owned() });
-        if is(line, "[parameters]") && at.is_none() {
+        let words = line.trim_start();
+        let after_key = words.strip_prefix(KEY).map(str::trim_start);
+        let names_file = at.is_none() && after_key.is_some_and(|it| it.starts_with('='));
+        text.push(if names_file { format!("# {words}") } else { line.to_owned() });
+        if words.starts_with("[parameters]") && at.is_none() {
             at = Some(text.len());
             text.extend(lines.iter().cloned());
         }

@@ -89,8 +89,8 @@ pub fn linked_axis(study: &Study) -> Option<usize> {
     if let Some(inherit) = study.inherit() {
         return Some(inherit.axis);
     }
-    let is_parameter = |axis: &usize| !study.axes()[*axis].coordinate.is_start();
-    let mut varies = (0..study.axes().len()).filter(is_parameter);
+    let mut varies =
+        (0..study.axes().len()).filter(|axis| !study.axes()[*axis].coordinate.is_start());
     let first = varies.next()?;
     let alone = varies.next().is_none();
     let parameter = matches!(study.axes()[first].coordinate, Coordinate::Parameter(_));

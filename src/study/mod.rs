@@ -11,6 +11,7 @@ pub mod continuation;
 pub mod document;
 pub mod drawing;
 mod drawing_file;
+mod drawing_text;
 pub mod draws;
 pub mod grid;
 pub mod include;
@@ -24,6 +25,7 @@ pub mod definition;
 mod study_file;
 mod study_text;
 mod toml_text;
+mod unknown_name;
 mod without_effect;
 
 pub use appearance::{ColourMap, Colouring, QuantitySettings, ScaleChoice, Setting, Settings};

@@ -11,40 +11,61 @@ pub(super) fn read_parameters(
 ) -> (Parameters, Vec<String>) {
     let model = top.model();
     let mut parameters = Parameters::of(model);
-    let mut given = Vec::new();
     let table = top.table("parameters");
-    let on_axis = |parameter: Parameter| varied.contains(&Coordinate::Parameter(parameter));
-    for parameter in model.parameters() {
-        let entry = table.as_ref().and_then(|table| table.entry(parameter.symbol()));
-        match entry {
-            Some(entry) if on_axis(parameter) => entry.fault("is given here and on an axis"),
+    let given = read_values(top, table.as_ref(), varied, &mut parameters);
+    let Some(table) = table else { return (parameters, Vec::new()) };
+    read_choices(&table, &mut parameters);
+    table.finish();
+    let missing =
+        (model.rules.missing)(&parameters, &|it| given.contains(&it), &|it| varies(varied, it));
+    if let Some(missing) = missing {
+        top.missing(&format!("parameters.{}", missing.parameter.symbol()), &missing.why);
+        return (parameters, Vec::new());
+    }
+    let completed =
+        (model.rules.complete)(&mut parameters, &|it| given.contains(&it) || varies(varied, it));
+    (parameters, completed.map(|it| it.why).into_iter().collect())
+}
+
+/// Whether a parameter is among the coordinates that vary.
+fn varies(varied: &[Coordinate], parameter: Parameter) -> bool {
+    varied.contains(&Coordinate::Parameter(parameter))
+}
+
+/// Reads the values, and tells which are given.
+fn read_values(
+    top: &Table<'_, '_>,
+    table: Option<&Table<'_, '_>>,
+    varied: &[Coordinate],
+    parameters: &mut Parameters,
+) -> Vec<Parameter> {
+    let mut given = Vec::new();
+    for parameter in top.model().parameters() {
+        let on_axis = varies(varied, parameter);
+        match table.and_then(|table| table.entry(parameter.symbol())) {
+            Some(entry) if on_axis => entry.fault("is given here and on an axis"),
             Some(entry) => {
                 let value = entry.allowed_quantity(parameter.dimension(), parameter.allowed());
                 parameters[parameter] = value.unwrap_or(parameters[parameter]);
                 given.push(parameter);
             }
-            None if parameter.is_asked_for() && !on_axis(parameter) => {
+            None if parameter.is_asked_for() && !on_axis => {
                 let expected = format!("a value for the {} here or an axis", parameter.meaning());
                 top.missing(&format!("parameters.{}", parameter.symbol()), &expected);
             }
             None => {}
         }
     }
-    let Some(table) = table else { return (parameters, Vec::new()) };
-    for (choice, described) in model.choices.iter().enumerate() {
+    given
+}
+
+/// Reads what is chosen beside the values.
+fn read_choices(table: &Table<'_, '_>, parameters: &mut Parameters) {
+    for (choice, described) in table.model().choices.iter().enumerate() {
         if let Some(entry) = table.entry(described.name) {
             let options = described.options.iter().enumerate();
             let options: Vec<(&str, usize)> = options.map(|(place, name)| (*name, place)).collect();
             parameters.choose(choice, entry.one_of(described.noun, &options).unwrap_or_default());
         }
     }
-    table.finish();
-    let is_given = |parameter: Parameter| given.contains(&parameter);
-    if let Some(missing) = (model.rules.missing)(&parameters, &is_given, &on_axis) {
-        top.missing(&format!("parameters.{}", missing.parameter.symbol()), &missing.why);
-        return (parameters, Vec::new());
-    }
-    let known = |parameter: Parameter| is_given(parameter) || on_axis(parameter);
-    let completed = (model.rules.complete)(&mut parameters, &known);
-    (parameters, completed.map(|it| it.why).into_iter().collect())
 }

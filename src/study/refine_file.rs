@@ -15,24 +15,25 @@ pub(super) struct Basin {
 
 /// Reads `[basin]`.
 pub(super) fn read_basin(top: &Table<'_, '_>, case_set: &CaseSet) -> Basin {
-    let mut basin = Basin { early_decision: true, refine: false };
-    let Some(table) = top.table("basin") else { return basin };
-    let is_for = |key: &str, value: &mut bool, applies: bool, which: &str| {
-        let Some(entry) = table.entry(key) else { return };
-        if !applies {
-            entry.fault(format!(
-                "{} is for {which} whose cases differ in their starts alone",
-                entry.shown()
-            ));
-        }
-        *value = entry.truth().unwrap_or(*value);
+    let Some(table) = top.table("basin") else {
+        return Basin { early_decision: true, refine: false };
     };
     let of_starts = case_set.varies_starts_alone();
-    is_for("early_decision", &mut basin.early_decision, of_starts, "studies");
+    let early_decision = read_truth_for(&table, "early_decision", of_starts, "studies");
     let is_grid = matches!(case_set, CaseSet::Grid(_));
-    is_for("refine", &mut basin.refine, of_starts && is_grid, "grids (not [draws])");
+    let refine = read_truth_for(&table, "refine", of_starts && is_grid, "grids (not [draws])");
     table.finish();
-    basin
+    Basin { early_decision: early_decision.unwrap_or(true), refine: refine.unwrap_or(false) }
+}
+
+/// Whether something is done, where it is told; a fault where it does not apply, as it is for `which` studies alone.
+fn read_truth_for(table: &Table<'_, '_>, key: &str, applies: bool, which: &str) -> Option<bool> {
+    let entry = table.entry(key)?;
+    if !applies {
+        let given = entry.shown();
+        entry.fault(format!("{given} is for {which} whose cases differ in their starts alone"));
+    }
+    entry.truth()
 }
 
 /// Reads `[map]`: the outputs by which a grid of parameters is refined, with the most by which they may differ in a cell.

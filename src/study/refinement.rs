@@ -170,11 +170,11 @@ impl Region {
 
     /// The weight of one of its corners in linear interpolation at a position inside.
     fn weight(&self, corner: &Position, at: &Position) -> f64 {
-        let along = |axis: usize| match self.high[axis] - self.low[axis] {
+        let along = (0..AXES).map(|axis| match self.high[axis] - self.low[axis] {
             0 => 1.0,
             length => 1.0 - corner[axis].abs_diff(at[axis]) as f64 / length as f64,
-        };
-        (0..AXES).map(along).product()
+        });
+        along.product()
     }
 
     /// Calls a function with each position, the last axis fastest.

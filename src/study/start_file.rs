@@ -47,27 +47,22 @@ pub(super) fn read_start(top: &Table<'_, '_>, case_set: &mut CaseSet) -> Start {
 ///
 /// `phase` is `start_phase` and `section_phase` at once.
 pub(super) fn read_state(table: &Table<'_, '_>, usual: Start, varied: &[Coordinate]) -> Start {
-    let quantity = |key: &str, coordinates: &[Coordinate]| {
-        let entry = table.entry(key)?;
-        if varied.iter().any(|coordinate| coordinates.contains(coordinate)) {
-            entry.fault("is given here and on an axis");
-        }
-        entry.allowed_quantity(coordinates[0].dimension(), Allowed::Finite)
-    };
     let mut start = usual;
     let both: Vec<Coordinate> = Coordinate::phases(start.state.model()).collect();
-    let phase = (!both.is_empty()).then(|| quantity(Coordinate::PHASE, &both)).flatten();
-    if let Some(phase) = phase {
+    if !both.is_empty()
+        && let Some(phase) = read_quantity(table, Coordinate::PHASE, &both, varied)
+    {
         (start.start_phase, start.section_phase) = (phase, phase);
     }
     for coordinate in start.state.model().start_coordinates() {
-        let given = quantity(coordinate.name(), &[Coordinate::Start(coordinate)]);
+        let key = coordinate.name();
+        let given = read_quantity(table, key, &[Coordinate::Start(coordinate)], varied);
         start.state[coordinate] = given.unwrap_or(start.state[coordinate]);
     }
     let places = [&mut start.start_phase, &mut start.section_phase];
     for (coordinate, place) in both.into_iter().zip(places) {
         let key = coordinate.name();
-        *place = quantity(key, &[coordinate]).unwrap_or(*place);
+        *place = read_quantity(table, key, &[coordinate], varied).unwrap_or(*place);
         if table.entry(Coordinate::PHASE).is_some()
             && let Some(entry) = table.entry(key)
         {
@@ -75,6 +70,20 @@ pub(super) fn read_state(table: &Table<'_, '_>, usual: Start, varied: &[Coordina
         }
     }
     start
+}
+
+/// The value that `key` gives some coordinates of the start, none of which may be among those that vary.
+fn read_quantity(
+    table: &Table<'_, '_>,
+    key: &str,
+    coordinates: &[Coordinate],
+    varied: &[Coordinate],
+) -> Option<f64> {
+    let entry = table.entry(key)?;
+    if varied.iter().any(|coordinate| coordinates.contains(coordinate)) {
+        entry.fault("is given here and on an axis");
+    }
+    entry.allowed_quantity(coordinates[0].dimension(), Allowed::Finite)
 }
 
 /// The axis of `inherit`, also under the older name of the key.

@@ -43,40 +43,44 @@ impl Study {
             // What a model does not know cannot be judged where it is not known which.
             return Err(reader.faults(name));
         }
-        // The name of a parameter file stands for its values, which are in the text by now.
-        if let Some(entry) = top.entry(include::KEY) {
-            entry.fault("must be the name of one parameter file beside the study, as \"rig.toml\"");
-        }
-        let mut case_set = read_case_set(&top);
-        let (base, remarks) = read_parameters(&top, &case_set.varied());
-        let start = read_start(&top, &mut case_set);
-        let protocol = read_protocol(&top);
-        let basin = read_basin(&top, &case_set);
-        let outputs = read_outputs(&top);
-        let refine =
-            read_map(&top, &case_set, &outputs).or(basin.refine.then_some(Refine::Attractors));
-        let surroundings = Surroundings { case_set: &case_set, base: &base, start: start.clone() };
-        let branches = read_branches(&top, &surroundings);
-        let study = Study {
-            title,
-            text: text.to_owned(),
-            remarks,
-            base,
-            start: start.state,
-            start_phase: start.start_phase,
-            section_phase: start.section_phase,
-            protocol,
-            early_decision: basin.early_decision,
-            drawings: read_drawings(&top, &case_set, &branches, (&outputs, refine.as_ref())),
-            refine,
-            outputs,
-            branches,
-            case_set,
-        };
+        let study = Study { title, text: text.to_owned(), ..read_study(&top) };
         check_size(&reader, &study);
         top.finish();
         reader.finish(name)?;
         Ok(study)
+    }
+}
+
+/// A study without its title and text.
+fn read_study(top: &Table<'_, '_>) -> Study {
+    // The name of a parameter file stands for its values, which are in the text by now.
+    if let Some(entry) = top.entry(include::KEY) {
+        entry.fault("must be the name of one parameter file beside the study, as \"rig.toml\"");
+    }
+    let mut case_set = read_case_set(top);
+    let (base, remarks) = read_parameters(top, &case_set.varied());
+    let start = read_start(top, &mut case_set);
+    let protocol = read_protocol(top);
+    let basin = read_basin(top, &case_set);
+    let outputs = read_outputs(top);
+    let refine = read_map(top, &case_set, &outputs).or(basin.refine.then_some(Refine::Attractors));
+    let surroundings = Surroundings { case_set: &case_set, base: &base, start: start.clone() };
+    let branches = read_branches(top, &surroundings);
+    Study {
+        title: String::new(),
+        text: String::new(),
+        remarks,
+        base,
+        start: start.state,
+        start_phase: start.start_phase,
+        section_phase: start.section_phase,
+        protocol,
+        early_decision: basin.early_decision,
+        drawings: read_drawings(top, &case_set, &branches, &outputs, refine.as_ref()),
+        refine,
+        outputs,
+        branches,
+        case_set,
     }
 }
 
@@ -110,73 +114,90 @@ fn check_size(reader: &Reader<'_>, study: &Study) {
 }
 
 fn read_protocol(top: &Table<'_, '_>) -> Protocol {
-    let mut protocol = Protocol::default();
-    if let Some(table) = top.table("protocol") {
-        let between = |key: &str, value: &mut f64| {
-            let Some(entry) = table.entry(key) else { return };
-            match entry.quantity(Dimension::Number) {
-                Some(given) if Protocol::TOLERANCES.contains(&given) => *value = given,
-                Some(given) => entry.fault(format!("{given} must lie between 1e-15 and 1e-3")),
-                None => {}
-            }
-        };
-        between("tolerance", &mut protocol.tolerance);
-        protocol = Protocol::with_tolerance(protocol.tolerance);
-        between("recurrence", &mut protocol.recurrence);
-        let whole = |key: &str, least: u64, most: u64, value: &mut u64| {
-            let found = table.entry(key).and_then(|entry| entry.whole(least, most));
-            *value = found.unwrap_or(*value);
-        };
-        whole("max_cycles", 1, u64::MAX, &mut protocol.max_cycles);
-        whole("max_steps", 1, u64::MAX, &mut protocol.max_steps);
-        whole("measured_cycles", 1, u64::MAX, &mut protocol.measured_cycles);
-        whole("exponent_cycles", 0, MOST_POINTS, &mut protocol.exponent_cycles);
-        if (1..BATCHES as u64).contains(&protocol.exponent_cycles)
-            && let Some(entry) = table.entry("exponent_cycles")
-        {
-            let given = protocol.exponent_cycles;
-            entry.fault(format!("{given} are too few for an exponent; {BATCHES} or more, or 0"));
-        }
-        if let Some(entry) = table.entry("exponent_error")
-            && let Some(given) = entry.quantity(Dimension::Number)
-        {
-            let [least, most] =
-                [Protocol::EXPONENT_ERRORS.start(), Protocol::EXPONENT_ERRORS.end()];
-            match Protocol::EXPONENT_ERRORS.contains(&given) {
-                true => protocol.exponent_error = given,
-                false => entry.fault(format!("{given} must lie between {least} and {most}")),
-            }
-        }
-        let size = |key: &str, least: u64, most: u64, value: &mut usize| {
-            let mut found = *value as u64;
-            whole(key, least, most, &mut found);
-            *value = found as usize;
-        };
-        size("max_period", 1, LONGEST_PERIOD, &mut protocol.max_period);
-        let accelerate = table.entry("accelerate").and_then(|entry| entry.truth());
-        protocol.accelerate = accelerate.unwrap_or(protocol.accelerate);
-        size("points", 0, MOST_POINTS, &mut protocol.points);
-        size("impact_points", 0, MOST_POINTS, &mut protocol.impact_points);
-        table.finish();
-    }
+    let mut protocol = top.table("protocol").map(read_settling).unwrap_or_default();
     if let Some(history) = top.entry("history").filter(|_| !top.model().keeps_histories()) {
         let name = top.model().name;
         history.fault(format!(
             "no histories are kept of motions of the model {name}: its cycles are none of a drive"
         ));
     }
-    protocol.history = top.table("history").map(|table| {
-        let whole = |key: &str, value: u32| {
-            let found = table.entry(key).and_then(|entry| entry.whole(1, MOST_POINTS));
-            found.map_or(value, |n| n as u32)
-        };
-        let (cycles, per_cycle) = (whole("cycles", 5), whole("samples_per_cycle", 400));
-        let begins = [("start", true), ("attractor", false)];
-        let from = table.entry("from").and_then(|entry| entry.one_of("beginning", &begins));
-        table.finish();
-        HistorySpan { cycles, per_cycle, from_start: from.unwrap_or(false) }
-    });
+    protocol.history = top.table("history").map(read_history);
     protocol
+}
+
+/// Reads `[protocol]`.
+fn read_settling(table: Table<'_, '_>) -> Protocol {
+    let usual = Protocol::default().tolerance;
+    let mut protocol = Protocol::with_tolerance(read_tolerance(&table, "tolerance", usual));
+    protocol.recurrence = read_tolerance(&table, "recurrence", protocol.recurrence);
+    for (key, value) in [
+        ("max_cycles", &mut protocol.max_cycles),
+        ("max_steps", &mut protocol.max_steps),
+        ("measured_cycles", &mut protocol.measured_cycles),
+    ] {
+        *value = read_whole(&table, key, 1, u64::MAX).unwrap_or(*value);
+    }
+    read_exponent(&table, &mut protocol);
+    let max_period = read_whole(&table, "max_period", 1, LONGEST_PERIOD);
+    protocol.max_period = max_period.map_or(protocol.max_period, |it| it as usize);
+    let accelerate = table.entry("accelerate").and_then(|entry| entry.truth());
+    protocol.accelerate = accelerate.unwrap_or(protocol.accelerate);
+    for (key, value) in
+        [("points", &mut protocol.points), ("impact_points", &mut protocol.impact_points)]
+    {
+        *value = read_whole(&table, key, 0, MOST_POINTS).map_or(*value, |it| it as usize);
+    }
+    table.finish();
+    protocol
+}
+
+/// A tolerance, `usual` where none is given that is allowed.
+fn read_tolerance(table: &Table<'_, '_>, key: &str, usual: f64) -> f64 {
+    let Some(entry) = table.entry(key) else { return usual };
+    match entry.quantity(Dimension::Number) {
+        Some(given) if Protocol::TOLERANCES.contains(&given) => given,
+        Some(given) => {
+            entry.fault(format!("{given} must lie between 1e-15 and 1e-3"));
+            usual
+        }
+        None => usual,
+    }
+}
+
+fn read_whole(table: &Table<'_, '_>, key: &str, least: u64, most: u64) -> Option<u64> {
+    table.entry(key)?.whole(least, most)
+}
+
+/// Reads how exponents are measured.
+fn read_exponent(table: &Table<'_, '_>, protocol: &mut Protocol) {
+    let cycles = read_whole(table, "exponent_cycles", 0, MOST_POINTS);
+    protocol.exponent_cycles = cycles.unwrap_or(protocol.exponent_cycles);
+    if (1..BATCHES as u64).contains(&protocol.exponent_cycles)
+        && let Some(entry) = table.entry("exponent_cycles")
+    {
+        let given = protocol.exponent_cycles;
+        entry.fault(format!("{given} are too few for an exponent; {BATCHES} or more, or 0"));
+    }
+    if let Some(entry) = table.entry("exponent_error")
+        && let Some(given) = entry.quantity(Dimension::Number)
+    {
+        let [least, most] = [Protocol::EXPONENT_ERRORS.start(), Protocol::EXPONENT_ERRORS.end()];
+        match Protocol::EXPONENT_ERRORS.contains(&given) {
+            true => protocol.exponent_error = given,
+            false => entry.fault(format!("{given} must lie between {least} and {most}")),
+        }
+    }
+}
+
+/// Reads `[history]`.
+fn read_history(table: Table<'_, '_>) -> HistorySpan {
+    let cycles = read_whole(&table, "cycles", 1, MOST_POINTS).map_or(5, |it| it as u32);
+    let per_cycle = read_whole(&table, "samples_per_cycle", 1, MOST_POINTS);
+    let per_cycle = per_cycle.map_or(400, |it| it as u32);
+    let begins = [("start", true), ("attractor", false)];
+    let from = table.entry("from").and_then(|entry| entry.one_of("beginning", &begins));
+    table.finish();
+    HistorySpan { cycles, per_cycle, from_start: from.unwrap_or(false) }
 }
 
 fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {

@@ -1,18 +1,17 @@
 //! A study built in code: written as a study file that parses to the same study, and checked by its rules.
 
-use super::appearance::dimension_of;
 use super::compared::{OUTDATED, UNWRITTEN};
 use super::continuation::FirstOrbit;
+use super::drawing_text::write_drawing;
 use super::draws::Range;
-use super::toml_text::{Document, inline, list, number, plain_quantity, quantity, text};
+use super::toml_text::{Document, inline, list, number, quantity, text};
 use super::{
-    Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Grid, Inherit,
-    QuantitySettings, Refine, Setting, Spacing, Study,
+    Axis, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit, Refine, Spacing,
+    Study,
 };
-use crate::description::{Description, Output, Parameter, State};
+use crate::description::State;
 use crate::of::default_model;
 use crate::orbit::{HistorySpan, Protocol};
-use crate::quantity::Dimension;
 
 impl Study {
     /// The study as the text of a study file, with all digits and in SI units.
@@ -64,8 +63,7 @@ impl Study {
         let faults = match &read {
             Ok(read) => self.differences(read, UNWRITTEN),
             Err(faults) => {
-                let without_line = |fault: &Fault| Fault { line: None, ..fault.clone() };
-                faults.faults.iter().map(without_line).collect()
+                faults.faults.iter().map(|it| Fault { line: None, ..it.clone() }).collect()
             }
         };
         if faults.is_empty() { read } else { Err(Faults { file: name.to_owned(), faults }) }
@@ -120,11 +118,11 @@ impl Study {
         document.put("from", from);
         document.put("to", to);
         let varied = self.case_set.varied();
-        let is_given = |parameter: &Parameter| {
+        let given = self.base.model().parameters().filter(|parameter| {
             varied.contains(&Coordinate::Parameter(*parameter))
                 || branch.varied().any(|other| other == *parameter)
-        };
-        let at = self.base.model().parameters().filter(is_given).map(|parameter| {
+        });
+        let at = given.map(|parameter| {
             let value = quantity(branch.parameters[parameter], parameter.dimension());
             (parameter.symbol().to_owned(), value)
         });
@@ -166,28 +164,31 @@ fn write_axis(document: &mut Document, axis: &Axis) {
     let Axis { coordinate, values } = axis;
     document.element("axes");
     document.put("name", text(coordinate.name()));
-    let value = |value: f64| quantity(value, coordinate.dimension());
+    let dimension = coordinate.dimension();
     match spacing(values) {
         Some((from, to, spacing)) => {
-            document.put("from", value(from));
-            document.put("to", value(to));
+            document.put("from", quantity(from, dimension));
+            document.put("to", quantity(to, dimension));
             document.put("points", values.len());
             document.put("spacing", text(spacing.name()));
         }
-        None => document.put("values", list(values.iter().map(|&it| value(it)))),
+        None => document.put("values", list(values.iter().map(|it| quantity(*it, dimension)))),
     }
 }
 
 /// The ends and the spacing that make exactly these values, if there are such.
 fn spacing(values: &[f64]) -> Option<(f64, f64, Spacing)> {
     let (&[from, _, _, ..], &[.., to]) = (values, values) else { return None };
-    let fits = |spacing: &Spacing| {
+    let found = [Spacing::Linear, Spacing::Logarithmic].into_iter().find(|spacing| {
         let can_be = *spacing == Spacing::Linear || (from > 0.0 && to > 0.0);
-        let spaced = || spacing.values(from, to, values.len());
-        can_be && from != to && spaced().iter().zip(values).all(|(a, b)| a.to_bits() == b.to_bits())
-    };
-    let found = [Spacing::Linear, Spacing::Logarithmic].into_iter().find(fits);
+        can_be && from != to && are_same(&spacing.values(from, to, values.len()), values)
+    });
     found.map(|spacing| (from, to, spacing))
+}
+
+/// Whether values are the same to the bit.
+fn are_same(some: &[f64], others: &[f64]) -> bool {
+    some.iter().zip(others).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
 fn write_draws(document: &mut Document, draws: &Draws) {
@@ -235,89 +236,9 @@ fn write_basin(document: &mut Document, study: &Study) {
     }
     if let Some(Refine::Outputs(within)) = &study.refine {
         document.table("map");
-        let one = |(output, most): &(Output, f64)| {
-            (output.name().to_owned(), quantity(*most, output.dimension()))
-        };
-        document.put("refine", inline(within.iter().map(one)));
-    }
-}
-
-fn write_drawing(document: &mut Document, drawing: &Drawing, model: &'static Description) {
-    document.element("figures");
-    document.put("name", text(&drawing.name));
-    document.put("kind", text(drawing.kind.name()));
-    for (key, value) in [("title", &drawing.title), ("x", &drawing.x), ("y", &drawing.y)] {
-        if let Some(value) = value {
-            document.put(key, text(value));
-        }
-    }
-    if !drawing.of.is_empty() {
-        document.put("of", list(drawing.of.iter().map(|name| text(name))));
-    }
-    if !drawing.at.is_empty() || !drawing.panels.is_empty() {
-        let value = |name: &str, value: f64| {
-            let known = Coordinate::all(model).find(|coordinate| coordinate.name() == name);
-            known.map_or(number(value), |it| quantity(value, it.dimension()))
-        };
-        let one = drawing.at.iter().map(|(name, it)| (text(name), value(name, *it)));
-        let several = drawing
-            .panels
+        let each = within
             .iter()
-            .map(|(name, values)| (text(name), list(values.iter().map(|it| value(name, *it)))));
-        document.put("at", inline(one.chain(several)));
-    }
-    if let Some(cycles) = drawing.cycles {
-        document.put("cycles", list(cycles.into_iter().map(number)));
-    }
-    if let Some(sweep) = drawing.sweep {
-        document.put("sweep", text(sweep.name()));
-    }
-    if let Some(name) = &drawing.colour_by {
-        document.put("colour_by", text(name));
-    }
-    if drawing.curves {
-        document.put("curves", drawing.curves);
-    }
-    document.put("branches", drawing.branches);
-    let sizes = [
-        ("width", drawing.width_mm),
-        ("height", drawing.height_mm),
-        ("marker_size", drawing.marker_mm),
-    ];
-    for (key, size) in sizes {
-        if let Some(size) = size {
-            document.put(key, text(&format!("{size:?} mm")));
-        }
-    }
-    if let Some(dpi) = drawing.dpi {
-        document.put("dpi", number(dpi));
-    }
-    if !drawing.hide.is_empty() {
-        document.put("hide", list(drawing.hide.iter().map(|name| text(name))));
-    }
-    if !drawing.texts.is_empty() {
-        let place = |(name, value): (&String, &f64)| {
-            let dimension = dimension_of(name, model).unwrap_or(Dimension::Number);
-            (text(name), quantity(*value, dimension))
-        };
-        let words =
-            drawing.texts.iter().map(|(words, at)| (text(words), inline(at.iter().map(place))));
-        document.put("texts", inline(words));
-    }
-    document.put("legend", drawing.legend);
-    document.put("data", drawing.data);
-    document.put("svg_text", drawing.svg_text);
-    for (key, setting) in Setting::NAMES {
-        let of_quantity = |(name, set): (&String, &QuantitySettings)| {
-            let dimension = dimension_of(name, model).unwrap_or(Dimension::Number);
-            let parts = set.parts(setting, |value| plain_quantity(value, dimension))?;
-            let parts: Vec<String> = parts.iter().map(|part| text(part)).collect();
-            let value = if setting.is_list() { list(parts.into_iter()) } else { parts.concat() };
-            Some((text(name), value))
-        };
-        let all: Vec<_> = drawing.settings.iter().filter_map(of_quantity).collect();
-        if !all.is_empty() {
-            document.put(key, inline(all.into_iter()));
-        }
+            .map(|(output, most)| (output.name().to_owned(), quantity(*most, output.dimension())));
+        document.put("refine", inline(each));
     }
 }

@@ -13,28 +13,38 @@ impl Study {
     /// What has no effect at the values of the study, in sentences, as far as it varies none of the parameters that are concerned.
     pub fn remarks_on_values(&self) -> Vec<String> {
         let varied = self.case_set.varied();
-        let is_held = |it: &Parameter| !varied.contains(&Coordinate::Parameter(*it));
-        let remarks = (self.base.model().rules.remarks)(&self.base).into_iter();
-        remarks.filter(|it| it.about.iter().all(is_held)).map(|it| it.text).collect()
+        let mut remarks = (self.base.model().rules.remarks)(&self.base);
+        remarks.retain(|remark| {
+            remark.about.iter().all(|it| !varied.contains(&Coordinate::Parameter(*it)))
+        });
+        remarks.into_iter().map(|it| it.text).collect()
     }
 
     /// The branches along which orbits stay the same, at least in a part, each with the reason, in a sentence.
     pub fn branches_without_effect(&self) -> Vec<String> {
-        let each = |branch: &Continuation| {
+        let mut all = Vec::new();
+        for branch in &self.branches {
             let second = branch.second.map(|(parameter, [low, _])| (parameter, low));
             let varied = [(branch.along, branch.range[0])].into_iter().chain(second);
-            let why = |(parameter, low)| {
-                let why = match self.reason(parameter) {
-                    Some(reason) => format!("{} has no effect {reason}", parameter.symbol()),
-                    None => {
-                        idle_below(parameter, &self.threshold(&branch.parameters, parameter)?, low)?
-                    }
-                };
-                Some(format!("branch `{}`: {why}; its orbits stay the same there", branch.name))
-            };
-            varied.filter_map(why).collect::<Vec<String>>()
-        };
-        self.branches.iter().flat_map(each).collect()
+            let reasons = varied.filter_map(|(it, low)| self.why_idle_along(branch, it, low));
+            all.extend(reasons.map(|why| {
+                format!("branch `{}`: {why}; its orbits stay the same there", branch.name)
+            }));
+        }
+        all
+    }
+
+    /// That a parameter which a branch varies from `low` on has no effect, at least in a part of the branch.
+    fn why_idle_along(
+        &self,
+        branch: &Continuation,
+        parameter: Parameter,
+        low: f64,
+    ) -> Option<String> {
+        match self.reason(parameter) {
+            Some(reason) => Some(format!("{} has no effect {reason}", parameter.symbol())),
+            None => idle_below(parameter, &self.threshold(&branch.parameters, parameter)?, low),
+        }
     }
 
     fn why_without_effect(&self, axis: &Axis) -> Option<String> {
@@ -69,15 +79,16 @@ impl Study {
         let mut beside = vec![self.base.clone()];
         for other in self.axes().iter().filter(|it| it.coordinate != axis.coordinate) {
             let Coordinate::Parameter(other_parameter) = other.coordinate else { continue };
-            let ends = range(&other.values);
-            let at = |end: f64| {
-                beside.iter().map(move |it| {
-                    let mut it = it.clone();
-                    it[other_parameter] = end;
-                    it
+            beside = range(&other.values)
+                .into_iter()
+                .flat_map(|end| {
+                    beside.iter().map(move |it| {
+                        let mut it = it.clone();
+                        it[other_parameter] = end;
+                        it
+                    })
                 })
-            };
-            beside = at(ends[0]).chain(at(ends[1])).collect();
+                .collect();
         }
         let limits = beside.iter().map(|it| self.threshold(it, parameter));
         let limits: Vec<Threshold> = limits.collect::<Option<_>>()?;
