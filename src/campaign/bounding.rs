@@ -24,7 +24,7 @@ struct Bounded {
 impl Bounded {
     /// The margin while the parameter falls or rises by a share of its value.
     fn margin(&self, model: &dyn Model, reach: f64) -> Margin {
-        margin(model, &self.along, (self.value, &self.points), reach * self.value)
+        margin(model, &self.along, self.value, &self.points, reach * self.value)
     }
 }
 
@@ -69,12 +69,15 @@ impl Refinement<'_> {
             Ok(margin)
         })?;
         reports.send(Event::Ended(Stage::Bounding))?;
-        let mut found = found.into_iter().collect::<Result<Vec<_>, CampaignError>>()?.into_iter();
-        let mut both = |it: &Bounded| {
-            let (down, up) = (found.next()?, found.next()?);
-            Some(Margins { parameter: it.along.parameter, at: it.value, down, up })
-        };
-        Ok(bounded.iter().map(|of| of.iter().filter_map(&mut both).collect()).collect())
+        let found = found.into_iter().collect::<Result<Vec<Margin>, CampaignError>>()?;
+        let both = found.chunks_exact(REACH.len());
+        let mut margins = all.iter().zip(both).map(|(it, both)| Margins {
+            parameter: it.along.parameter,
+            at: it.value,
+            down: both[0].clone(),
+            up: both[1].clone(),
+        });
+        Ok(bounded.iter().map(|of| margins.by_ref().take(of.len()).collect()).collect())
     }
 }
 

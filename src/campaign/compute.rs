@@ -5,9 +5,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use crate::run::run_blocks;
+use crate::run::{Record, run_blocks};
 use crate::store::{BlockFolder, Blocks, StoreError, Unusable};
-use crate::study::spread;
+use crate::study::{Study, spread};
 
 use super::error::CampaignError;
 use super::report::{Event, Reports, Survey};
@@ -57,27 +57,55 @@ impl Campaign<'_> {
         blocks: &[usize],
         reports: &Reports<'_>,
     ) -> Result<(usize, Option<StoreError>), CampaignError> {
-        let (done, trouble) = (AtomicUsize::new(0), Mutex::new(None));
         let study = self.study;
-        let each = |block: usize, record: &_| {
-            // How many cases a tile needs is known only at its end.
-            if study.refine.is_some() {
-                return reports.proceed();
-            }
-            reports.note(Event::Case { block, cases: study.cases_of_block(block), record })
-        };
-        let whole = |block: usize, records: Vec<_>| match folder.keep(study, block, &records) {
+        let (done, trouble) = (AtomicUsize::new(0), Mutex::new(None));
+        let keeping = Keeping { study, folder, reports, done, trouble };
+        run_blocks(
+            study,
+            self.machine,
+            blocks,
+            |block, record| keeping.note(block, record),
+            |block, records| keeping.keep(block, &records),
+        )?;
+        let trouble = keeping.trouble.into_inner().unwrap_or_else(|it| it.into_inner());
+        Ok((keeping.done.into_inner(), trouble))
+    }
+}
+
+/// Blocks that are kept in a folder as soon as they are done.
+struct Keeping<'a> {
+    study: &'a Study,
+    folder: &'a BlockFolder,
+    reports: &'a Reports<'a>,
+    /// How many are kept.
+    done: AtomicUsize,
+    /// Why the first was not that could not be kept.
+    trouble: Mutex<Option<StoreError>>,
+}
+
+impl Keeping<'_> {
+    /// Reports a case that is done.
+    fn note(&self, block: usize, record: &Record) -> ControlFlow<()> {
+        // How many cases a tile needs is known only at its end.
+        if self.study.refine.is_some() {
+            return self.reports.proceed();
+        }
+        let cases = self.study.cases_of_block(block);
+        self.reports.note(Event::Case { block, cases, record })
+    }
+
+    /// Keeps a block.
+    fn keep(&self, block: usize, records: &[Record]) -> ControlFlow<()> {
+        match self.folder.keep(self.study, block, records) {
             Ok(summary) => {
-                done.fetch_add(1, Ordering::Relaxed);
-                reports.note(Event::Block(&summary))
+                self.done.fetch_add(1, Ordering::Relaxed);
+                self.reports.note(Event::Block(&summary))
             }
             Err(error) => {
-                trouble.lock().unwrap_or_else(|it| it.into_inner()).get_or_insert(error);
+                self.trouble.lock().unwrap_or_else(|it| it.into_inner()).get_or_insert(error);
                 ControlFlow::Break(())
             }
-        };
-        run_blocks(study, self.machine, blocks, each, whole)?;
-        Ok((done.into_inner(), trouble.into_inner().unwrap_or_else(|it| it.into_inner())))
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use crate::description::{Description, Outputs, Parameter, Parameters};
+use crate::description::{Description, Output, Outputs, Parameter, Parameters};
 use crate::orbit::Outcome;
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
@@ -76,23 +76,8 @@ impl Conditions {
             self.bounds.extend(sides.iter().map(|side| (parameter, *side, *limit)));
             return Ok(());
         }
-        let smooth = || model.outputs().filter(|it| it.is_smooth());
-        match (smooth().find(|it| it.name() == name), sides) {
-            (Some(output), [side]) => {
-                self.limits.push(Limit { output, side: *side, value: *limit });
-                Ok(())
-            }
-            (Some(_), _) => Err("`--refine` takes only < <= > >= of an output".to_owned()),
-            (None, _) => {
-                let outputs: Vec<&str> = smooth().map(|it| it.name()).collect();
-                Err(format!(
-                    "`--refine` cannot keep it between the cases; it takes parameters, `{}`, `{}` and {}",
-                    OUTCOME.name,
-                    PERIOD.name,
-                    outputs.join(", ")
-                ))
-            }
-        }
+        self.limits.push(limit_of_output(condition, sides, model)?);
+        Ok(())
     }
 
     /// The part of a range of a parameter that is allowed.
@@ -107,16 +92,14 @@ impl Conditions {
     /// Whether a search may begin with a motion that has these parameters and this period: limits of outputs, to which a search comes back,
     /// may be exceeded.
     pub fn may_begin(&self, parameters: &Parameters, period: u64) -> bool {
-        let is_within = |(parameter, side, value): &(Parameter, Side, f64)| match side {
-            Side::Lower => parameters[*parameter] >= *value,
-            Side::Upper => parameters[*parameter] <= *value,
-        };
-        let periods = self.periods.iter();
+        let mut bounds = self.bounds.iter();
+        let mut periods = self.periods.iter();
         !self.excludes_periodic
-            && self.bounds.iter().all(is_within)
-            && periods
-                .into_iter()
-                .all(|(comparison, limit)| comparison.holds(period as f64, *limit))
+            && bounds.all(|(parameter, side, value)| match side {
+                Side::Lower => parameters[*parameter] >= *value,
+                Side::Upper => parameters[*parameter] <= *value,
+            })
+            && periods.all(|(comparison, limit)| comparison.holds(period as f64, *limit))
     }
 
     /// Whether outputs keep all limits.
@@ -130,6 +113,28 @@ impl Conditions {
     /// All of them in JSON; nothing of none.
     pub fn described(&self) -> Option<Value> {
         (!self.normal.is_empty()).then(|| json!(self.normal))
+    }
+}
+
+/// The limit of an output on these sides; fails with what can be kept where that is none.
+fn limit_of_output(
+    condition: &Condition,
+    sides: &[Side],
+    model: &'static Description,
+) -> Result<Limit, String> {
+    let smooth: Vec<Output> = model.outputs().filter(|it| it.is_smooth()).collect();
+    match (smooth.iter().find(|it| it.name() == condition.name), sides) {
+        (Some(&output), &[side]) => Ok(Limit { output, side, value: condition.limit }),
+        (Some(_), _) => Err("`--refine` takes only < <= > >= of an output".to_owned()),
+        (None, _) => {
+            let outputs: Vec<&str> = smooth.iter().map(|it| it.name()).collect();
+            Err(format!(
+                "`--refine` cannot keep it between the cases; it takes parameters, `{}`, `{}` and {}",
+                OUTCOME.name,
+                PERIOD.name,
+                outputs.join(", ")
+            ))
+        }
     }
 }
 

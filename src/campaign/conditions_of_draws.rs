@@ -36,6 +36,16 @@ impl Quantity {
                 .or_else(|| model.output(name).map(Quantity::Output)),
         }
     }
+
+    /// Its value in a draw; of an outcome the code that the condition has for it.
+    fn value(self, parameters: &Parameters, orbit: &Orbit, condition: &Condition) -> f64 {
+        match self {
+            Quantity::Parameter(parameter) => parameters[parameter],
+            Quantity::Output(output) => orbit.outputs[output],
+            Quantity::Period => orbit.period as f64,
+            Quantity::Outcome => condition.code(orbit.outcome.name()),
+        }
+    }
 }
 
 impl OfDraws {
@@ -54,16 +64,12 @@ impl OfDraws {
     /// Whether a draw keeps those that can be judged; none where there is none. Limits may be reached, as by motions between the cases,
     /// which lie on them.
     pub fn met(&self, parameters: &Parameters, orbit: &Orbit) -> Option<bool> {
-        let holds = |(quantity, condition): &(Quantity, Condition)| {
-            let value = match quantity {
-                Quantity::Parameter(parameter) => parameters[*parameter],
-                Quantity::Output(output) => orbit.outputs[*output],
-                Quantity::Period => orbit.period as f64,
-                Quantity::Outcome => condition.code(orbit.outcome.name()),
-            };
-            keeps(condition, value)
-        };
-        (!self.judged.is_empty()).then(|| self.judged.iter().all(holds))
+        let mut each = self.judged.iter();
+        (!self.judged.is_empty()).then(|| {
+            each.all(|(quantity, condition)| {
+                keeps(condition, quantity.value(parameters, orbit, condition))
+            })
+        })
     }
 }
 

@@ -35,8 +35,8 @@ impl Campaign<'_> {
         prepare(self.output)?;
         reports.send(Event::Begun(Stage::Continuing, self.study.branches.len()))?;
         let (begun, threads) = (Instant::now(), self.machine.threads);
-        let done = || reports.step(Stage::Continuing);
-        let continued = run::continue_branches(self.study, threads, done)?;
+        let continued =
+            run::continue_branches(self.study, threads, || reports.step(Stage::Continuing))?;
         let time = begun.elapsed();
         reports.send(Event::Ended(Stage::Continuing))?;
         self.put(&continued, &reports)?;

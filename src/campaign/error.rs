@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::count::{counted, ranges};
 use crate::quantity::printable::printable;
@@ -132,6 +132,11 @@ pub enum Cause {
 }
 
 impl CampaignError {
+    /// A path that cannot be what it was given for.
+    pub(super) fn of_path(path: &Path, fault: impl Into<String>) -> CampaignError {
+        CampaignError::Path { path: path.to_owned(), fault: fault.into() }
+    }
+
     /// What it comes from.
     pub fn cause(&self) -> Cause {
         use StoreError::{Busy, Changed, Held, InUse, NoBlocks, NoPlace, Occupied};
@@ -205,8 +210,8 @@ impl fmt::Display for CampaignError {
                 )
             }
             CampaignError::TradeOff { path, faults } => {
-                let within = |fault: &String| format!("{}: {fault}", printable(path));
-                let faults: Vec<String> = faults.iter().map(within).collect();
+                let faults: Vec<String> =
+                    faults.iter().map(|fault| format!("{}: {fault}", printable(path))).collect();
                 f.write_str(&faults.join("\n"))
             }
             CampaignError::NoFolder { folder, file } => {
@@ -239,8 +244,7 @@ fn write_missing(
 ) -> fmt::Result {
     let numbers = ranges(blocks.iter().map(|(number, ..)| *number));
     write!(f, "{folder}: {} missing: {numbers}", counted(blocks.len(), "block"))?;
-    let is_there = |why: &Unusable| !matches!(why, Unusable::Missing);
-    for (_, file, why) in blocks.iter().filter(|(.., why)| is_there(why)) {
+    for (_, file, why) in blocks.iter().filter(|(.., why)| !matches!(why, Unusable::Missing)) {
         write!(f, "\n{}: {why}", printable(file))?;
     }
     Ok(())

@@ -33,16 +33,14 @@ impl Refinement<'_> {
     pub fn gaps<'m>(&self, front: &[(f64, Option<&'m RefinedMotion>)]) -> Vec<Gap<'m>> {
         let [(first, _), .., (last, _)] = front else { return Vec::new() };
         let widest = (last - first) / PARTS;
-        let between = |pair: &[(f64, Option<&'m RefinedMotion>)]| {
-            let [low, high] = [pair[0].0, pair[1].0];
-            let parts = ((high - low) / widest).ceil() as usize;
-            let price = |part: usize| low + (high - low) * part as f64 / parts as f64;
-            let rising: Vec<f64> = (1..parts).map(price).collect();
+        let all = front.windows(2).flat_map(|pair| {
+            let rising = prices_between(pair[0].0, pair[1].0, widest);
             let falling = rising.iter().rev().copied().collect();
             [(pair[0].1, rising), (pair[1].1, falling)]
-        };
-        let all = front.windows(2).flat_map(between).filter(|(_, prices)| !prices.is_empty());
-        all.filter_map(|(from, prices)| Some(Gap { from: from?, prices })).collect()
+        });
+        all.filter(|(_, prices)| !prices.is_empty())
+            .filter_map(|(from, prices)| Some(Gap { from: from?, prices }))
+            .collect()
     }
 
     /// From motions found, beside or behind the front, to prices over the whole range of it: a family that is behind the front at one price
@@ -51,31 +49,30 @@ impl Refinement<'_> {
     /// The motions are those nearest to the front by the speed at their price, at most `LADDERS`; the prices are `RUNGS` from the
     /// cheapest to the dearest of all, each as many times dearer than the one before, and lower ones down to a seventh of the cheapest.
     pub fn ladders<'m>(&self, front: &[(f64, f64)], found: &'m [RefinedMotion]) -> Vec<Gap<'m>> {
-        let price = |it: &RefinedMotion| it.outputs[self.of];
-        let known = front.iter().map(|it| it.0).chain(found.iter().map(price));
+        let known = front.iter().map(|it| it.0).chain(found.iter().map(|it| it.outputs[self.of]));
         let known = known.filter(|it| it.is_finite() && *it > 0.0);
         let [low, high] =
             known.fold([f64::INFINITY, 0.0_f64], |[low, high], it| [low.min(it), high.max(it)]);
-        let share = |it: &RefinedMotion| {
-            let last = front.partition_point(|of_front| of_front.0 <= price(it));
-            let speed = self.direction.of(it.outputs.speed());
-            last.checked_sub(1).map_or(f64::INFINITY, |last| speed / front[last].1)
-        };
         let mut nearest: Vec<&RefinedMotion> = found.iter().collect();
-        nearest.sort_by(|a, b| share(b).total_cmp(&share(a)));
+        nearest.sort_by(|a, b| {
+            self.share_of_front(b, front).total_cmp(&self.share_of_front(a, front))
+        });
         nearest.truncate(LADDERS);
-        let rung = |number: usize| low * (high / low).powf(number as f64 / (RUNGS - 1) as f64);
-        let lower = |number: i32| low * BELOW.powi(number);
-        let mut rungs: Vec<f64> = Vec::new();
-        if high > low {
-            rungs.extend((1..=LOWER).rev().map(lower).chain((0..RUNGS).map(rung)));
-        }
-        let both = |from: &'m RefinedMotion| {
+        let rungs = rungs(low, high);
+        let ladders = nearest.into_iter().flat_map(|from| {
             let (below, above): (Vec<f64>, Vec<f64>) =
-                rungs.iter().partition(|rung| **rung < price(from));
+                rungs.iter().partition(|rung| **rung < from.outputs[self.of]);
             [below.into_iter().rev().collect(), above].map(|prices| Gap { from, prices })
-        };
-        nearest.into_iter().flat_map(both).filter(|gap| !gap.prices.is_empty()).collect()
+        });
+        ladders.filter(|gap| !gap.prices.is_empty()).collect()
+    }
+
+    /// The speed of a motion as a share of that of the front of prices and speeds at its price; infinite where the front has none for it.
+    fn share_of_front(&self, motion: &RefinedMotion, front: &[(f64, f64)]) -> f64 {
+        let price = motion.outputs[self.of];
+        let last = front.partition_point(|of_front| of_front.0 <= price);
+        let speed = self.direction.of(motion.outputs.speed());
+        last.checked_sub(1).map_or(f64::INFINITY, |last| speed / front[last].1)
     }
 
     /// The motions that are followed into gaps of the front, in their order; calls `done` after each gap.
@@ -129,4 +126,18 @@ impl Refinement<'_> {
         }
         led
     }
+}
+
+/// Prices between two, evenly spaced by no more than the widest gap that is allowed.
+fn prices_between(low: f64, high: f64, widest: f64) -> Vec<f64> {
+    let parts = ((high - low) / widest).ceil() as usize;
+    (1..parts).map(|part| low + (high - low) * part as f64 / parts as f64).collect()
+}
+
+/// Prices below a range and over it, in rising order; none of an empty range.
+fn rungs(low: f64, high: f64) -> Vec<f64> {
+    let below = (1..=LOWER).rev().map(|number| low * BELOW.powi(number));
+    let within =
+        (0..RUNGS).map(|number| low * (high / low).powf(number as f64 / (RUNGS - 1) as f64));
+    if high > low { below.chain(within).collect() } else { Vec::new() }
 }

@@ -1,6 +1,6 @@
 //! Joins the blocks of a study into its file, with the attractors that the cases have ended on.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::run::{self, has_attractors};
 use crate::store::{
@@ -47,18 +47,16 @@ impl Campaign<'_> {
     /// Joins the blocks into `file`, which is partial unless it is the output.
     fn join_or_keep(&self, file: &Path, report: &Report<'_>) -> Result<Complete, CampaignError> {
         let reports = Reports::new(report);
-        let (study, is_partial) = (self.study, file != self.output);
+        let is_partial = file != self.output;
         match self.kept()? {
             Some(older) if older.archive.has_cases() => self.keep(older, is_partial, &reports),
             older => {
                 check_branches(older.as_ref(), self.output, self.overwrite)?;
                 drop(older);
-                let enter =
-                    |company| BlockFolder::enter(&block_path(self.output), study, company, false);
                 // A look first, which makes no folder where nothing was begun.
-                let seen = enter(Company::Anybody);
+                let seen = self.enter(Company::Anybody);
                 let folder =
-                    if is_partial { seen } else { seen.and_then(|_| enter(Company::Alone)) };
+                    if is_partial { seen } else { seen.and_then(|_| self.enter(Company::Alone)) };
                 let joined = folder
                     .map_err(CampaignError::from)
                     .and_then(|folder| self.join_blocks(folder, file, &reports));
@@ -73,6 +71,11 @@ impl Campaign<'_> {
                 }
             }
         }
+    }
+
+    /// Enters the folder of the blocks.
+    fn enter(&self, company: Company) -> Result<BlockFolder, StoreError> {
+        BlockFolder::enter(&block_path(self.output), self.study, company, false)
     }
 
     /// Leaves a file with all cases as it is.
@@ -99,16 +102,9 @@ impl Campaign<'_> {
     ) -> Result<Complete, CampaignError> {
         let is_partial = file != self.output;
         prepare(file)?;
-        let blocks = Blocks::open(&folder, self.study, 0..self.study.blocks());
-        let mut blocks = if is_partial {
-            // A run that has ended since has removed some of them.
-            if self.kept()?.is_some_and(|whole| whole.archive.has_cases()) {
-                return Err(StoreError::NoBlocks { folder: folder.path().to_owned() }.into());
-            }
-            report_left_out(&folder, &blocks, reports)?;
-            blocks
-        } else {
-            all_of(&folder, blocks)?
+        let mut blocks = match is_partial {
+            true => self.some_blocks(&folder, reports)?,
+            false => all_of(&folder, self.open_blocks(&folder))?,
         };
         reports.send(Event::Joining { folder: folder.path() })?;
         let mut frame = blocks.frame();
@@ -131,6 +127,25 @@ impl Campaign<'_> {
             folder.remove()?;
         }
         Ok(Complete { path: file.to_owned(), archive })
+    }
+
+    fn open_blocks(&self, folder: &BlockFolder) -> Blocks<'_> {
+        Blocks::open(folder, self.study, 0..self.study.blocks())
+    }
+
+    /// The blocks that are there, of which some may be missing.
+    fn some_blocks(
+        &self,
+        folder: &BlockFolder,
+        reports: &Reports<'_>,
+    ) -> Result<Blocks<'_>, CampaignError> {
+        let blocks = self.open_blocks(folder);
+        // A run that has ended since has removed some of them.
+        if self.kept()?.is_some_and(|whole| whole.archive.has_cases()) {
+            return Err(StoreError::NoBlocks { folder: folder.path().to_owned() }.into());
+        }
+        report_left_out(folder, &blocks, reports)?;
+        Ok(blocks)
     }
 
     /// Infers the cases of a refined map that have not been computed, after those that the tiles lack have been, unless it is
@@ -166,8 +181,8 @@ impl Campaign<'_> {
         }
         reports.send(Event::Begun(Stage::Linking, run::links(self.study)))?;
         let states = blocks.final_motions()?;
-        let linked = || reports.step(Stage::Linking);
-        let attractors = run::attractors(self.study, &states, self.machine, linked)?;
+        let attractors =
+            run::attractors(self.study, &states, self.machine, || reports.step(Stage::Linking))?;
         let mut table = run::attractor_table(self.study, &attractors, &states, self.machine)?;
         drop(states);
         // Those of a refined study that are followed lie near the boundaries, and take longer than the others would.
@@ -196,12 +211,16 @@ impl Campaign<'_> {
         drop(older);
         store::discard_unfinished(file)?;
         store::discard_unfinished(&partial_path(self.output))?;
-        let begun = |parts| {
-            // A request to stop takes effect at the first part.
-            let _ = reports.note(Event::Begun(Stage::Writing, parts));
-        };
-        let done = || reports.note(Event::Step(Stage::Writing));
-        if blocks.join(&frame, file, begun, done)?.is_break() {
+        let written = blocks.join(
+            &frame,
+            file,
+            |parts| {
+                // A request to stop takes effect at the first part.
+                let _ = reports.note(Event::Begun(Stage::Writing, parts));
+            },
+            || reports.note(Event::Step(Stage::Writing)),
+        )?;
+        if written.is_break() {
             return Err(CampaignError::Stopped);
         }
         reports.send(Event::Ended(Stage::Writing))
@@ -213,16 +232,14 @@ fn all_of<'a>(folder: &BlockFolder, mut blocks: Blocks<'a>) -> Result<Blocks<'a>
     if blocks.missing.is_empty() {
         return Ok(blocks);
     }
-    let is_refused = |(_, why): &(usize, Unusable)| matches!(why, Unusable::Refused(_));
-    if let Some(place) = blocks.missing.iter().position(is_refused) {
+    let mut missing = blocks.missing.iter();
+    if let Some(place) = missing.position(|(_, why)| matches!(why, Unusable::Refused(_))) {
         let (number, why) = blocks.missing.swap_remove(place);
         return Err(CampaignError::Block { file: folder.file(number), why });
     }
     let missing = std::mem::take(&mut blocks.missing).into_iter();
-    let named =
-        |(number, why)| -> (usize, PathBuf, Unusable) { (number, folder.file(number), why) };
-    let folder = folder.path().to_owned();
-    Err(CampaignError::Missing { folder, blocks: missing.map(named).collect() })
+    let blocks = missing.map(|(number, why)| (number, folder.file(number), why)).collect();
+    Err(CampaignError::Missing { folder: folder.path().to_owned(), blocks })
 }
 
 /// Reports the blocks that are damaged or foreign.

@@ -84,8 +84,8 @@ impl Group {
         table: &Option<CaseTable<'_>>,
         path: &Path,
     ) -> Result<KeptFront, CampaignError> {
-        let is_sought = |it: &&(&str, Direction)| self.directions.contains(it.0);
-        let directions = Direction::NAMES.iter().filter(is_sought).map(|it| it.1).collect();
+        let sought = Direction::NAMES.iter().filter(|it| self.directions.contains(it.0));
+        let directions = sought.map(|it| it.1).collect();
         let keeps = match table.as_ref().filter(|_| !asked.is_empty()) {
             Some(table) => keeping(table, &asked, path)?,
             None => Vec::new(),

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use super::count::count;
 use super::error::CampaignError;
 use super::refined_motion::{Led, RefinedMotion, Slopes, Start};
-use crate::description::{Output, Outputs, Parameter, Section};
+use crate::description::{Outputs, Section};
 use crate::quantity::printable::printable;
 use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
 use crate::study::Study;
@@ -49,7 +49,7 @@ impl KeptSearches {
     pub fn read(archive: &Archive, study: &Study) -> Result<KeptSearches, CampaignError> {
         let path = searches_path(archive.path());
         let lines = read_lines(&path)?;
-        let (known, damaged) = searches(&lines, (archive, study), &path)?;
+        let (known, damaged) = searches(&lines, archive, study, &path)?;
         Ok(KeptSearches { known, damaged, file: None })
     }
 
@@ -65,7 +65,7 @@ impl KeptSearches {
         let path = searches_path(archive.path());
         let (file, lines) = LineFile::open(&path)?;
         let mut has_head = !lines.whole.is_empty();
-        let (known, damaged) = match searches(&lines, (archive, study), &path) {
+        let (known, damaged) = match searches(&lines, archive, study, &path) {
             Err(CampaignError::OtherSearches { .. }) | Ok(_) if overwrite => {
                 file.clear()?;
                 has_head = false;
@@ -109,13 +109,7 @@ impl KeptSearches {
 
     /// The options of the refinements whose searches are kept, the direction first.
     pub fn refinements(&self) -> BTreeSet<String> {
-        let read = |what: &String| -> Option<String> {
-            let what: Value = serde_json::from_str(what).ok()?;
-            let options =
-                format!("--direction {} --of {}", what["moving"].as_str()?, what["of"].as_str()?);
-            Some(options + &conditions(&what).unwrap_or_default())
-        };
-        self.known.keys().filter_map(read).collect()
+        self.known.keys().filter_map(|what| options(what)).collect()
     }
 
     /// What a search has led to; it is done now and kept if it has not been.
@@ -138,6 +132,14 @@ impl KeptSearches {
     }
 }
 
+/// The options of the refinement that a search belongs to.
+fn options(what: &str) -> Option<String> {
+    let what: Value = serde_json::from_str(what).ok()?;
+    let (moving, of) = (what["moving"].as_str()?, what["of"].as_str()?);
+    let conditions = conditions(&what).unwrap_or_default();
+    Some(format!("--direction {moving} --of {of}{conditions}"))
+}
+
 /// The option of the conditions that a search has kept.
 fn conditions(what: &Value) -> Option<String> {
     let parts: Option<Vec<&str>> = what["where"].as_array()?.iter().map(Value::as_str).collect();
@@ -157,10 +159,10 @@ fn head(archive: &Archive, study: &Study) -> Value {
 /// The searches in the lines of a file, and how many lines do not fit their checksums.
 fn searches(
     lines: &Lines,
-    (archive, study): (&Archive, &Study),
+    archive: &Archive,
+    study: &Study,
     path: &Path,
 ) -> Result<(BTreeMap<String, Led>, usize), CampaignError> {
-    let other = |what| CampaignError::OtherSearches { path: path.to_owned(), what };
     let now = head(archive, study);
     let Some((first, rest)) = lines.whole.split_first() else {
         // A kill may have left the beginning of the first line.
@@ -176,25 +178,29 @@ fn searches(
     let head = unsealed(first);
     let is_damaged = head.is_none();
     let first: Value = serde_json::from_str(head.as_ref().unwrap_or(first)).unwrap_or_default();
-    let is_older = first["format"] != now["format"]
-        && first["format"].as_str().is_some_and(|it| it.starts_with(ANY_FORMAT));
-    if is_older {
-        return Err(other("searches by another scheme, of another version of the program"));
-    }
-    for (key, what) in [
-        ("format", "a first line that is damaged"),
-        ("fingerprint", "searches of another study"),
-        ("results_by", "searches of results of another program"),
-        ("searches_by", "searches by another program"),
-    ] {
-        if first[key] != now[key] {
-            return Err(other(what));
-        }
+    if let Some(what) = mismatch(&first, &now) {
+        return Err(CampaignError::OtherSearches { path: path.to_owned(), what });
     }
     let found: Vec<_> = rest.iter().map(|line| search(line, study)).collect();
     let damaged = found.iter().filter(|it| it.is_none()).count();
     let damaged = damaged + usize::from(!lines.torn.is_empty()) + usize::from(is_damaged);
     Ok((found.into_iter().flatten().collect(), damaged))
+}
+
+/// What a file holds whose first line is not what it would be now; none where it is.
+fn mismatch(first: &Value, now: &Value) -> Option<&'static str> {
+    let is_older = first["format"] != now["format"]
+        && first["format"].as_str().is_some_and(|it| it.starts_with(ANY_FORMAT));
+    if is_older {
+        return Some("searches by another scheme, of another version of the program");
+    }
+    let parts = [
+        ("format", "a first line that is damaged"),
+        ("fingerprint", "searches of another study"),
+        ("results_by", "searches of results of another program"),
+        ("searches_by", "searches by another program"),
+    ];
+    parts.into_iter().find(|(key, _)| first[key] != now[key]).map(|(_, what)| what)
 }
 
 /// The search in a line, and what it has led to; none where the line has changed.
@@ -269,18 +275,18 @@ impl From<Real> for f64 {
 impl Written {
     fn of(motion: &RefinedMotion) -> Written {
         let Slopes { sensitivity, stationarity, held_by } = &motion.slopes;
-        let parameter = |(it, value): (Parameter, f64)| (it.symbol().to_owned(), value.into());
-        let output = |(it, value): (Output, f64)| (it.name().to_owned(), value.into());
-        let both =
-            |(it, slopes): &(Parameter, [f64; 2])| (it.symbol().to_owned(), slopes.map(Real::from));
+        let (parameters, outputs) = (motion.parameters.each(), motion.outputs.each());
+        let slopes = sensitivity.iter().map(|(it, both)| (it.symbol(), both.map(Real::from)));
         Written {
             from: motion.from,
-            parameters: motion.parameters.each().map(parameter).collect(),
+            parameters: parameters
+                .map(|(it, value)| (it.symbol().to_owned(), value.into()))
+                .collect(),
             section: motion.section.to_vec(),
             phase: motion.phase,
             period: motion.period,
-            outputs: motion.outputs.each().map(output).collect(),
-            sensitivity: sensitivity.iter().map(both).collect(),
+            outputs: outputs.map(|(it, value)| (it.name().to_owned(), value.into())).collect(),
+            sensitivity: slopes.map(|(symbol, both)| (symbol.to_owned(), both)).collect(),
             stationarity: stationarity.map(Real::from),
             held_by: held_by.clone(),
         }
@@ -300,12 +306,12 @@ impl Written {
         for output in study.base.model().outputs() {
             outputs[output] = (*self.outputs.get(output.name())?).into();
         }
-        let both = |it: Parameter| {
+        let sensitivity = study.base.model().parameters().filter_map(|it| {
             let slopes = self.sensitivity.get(it.symbol())?;
             Some((it, slopes.map(f64::from)))
-        };
+        });
         let slopes = Slopes {
-            sensitivity: study.base.model().parameters().filter_map(both).collect(),
+            sensitivity: sensitivity.collect(),
             stationarity: self.stationarity.map(f64::from),
             held_by: self.held_by,
         };

@@ -105,12 +105,7 @@ impl Margins {
 /// # Breaks
 ///
 /// Two special points of one kind that undo each other within a segment may both be passed.
-pub fn margin(
-    model: &dyn Model,
-    along: &Along,
-    (value, points): (f64, &[Section]),
-    by: f64,
-) -> Margin {
+pub fn margin(model: &dyn Model, along: &Along, value: f64, points: &[Section], by: f64) -> Margin {
     let (mut until, mut points) = (value, points.to_vec());
     let mut passed = Vec::new();
     for number in 1..=SEGMENTS {
@@ -121,9 +116,8 @@ pub fn margin(
         };
         let special = before_turning(&found.special, by.signum());
         let has_turned = special.len() < found.special.len();
-        let ends =
-            |it: &SpecialValue<Section>| !it.is_stable_beyond || it.kind == SpecialKind::Fold;
-        let end = special.iter().position(ends);
+        let end =
+            special.iter().position(|it| !it.is_stable_beyond || it.kind == SpecialKind::Fold);
         // Where a branch turns back at a kink, that is its last change of events.
         let turns = has_turned || found.end == SegmentEnd::Ended;
         let end = end.or_else(|| special.len().checked_sub(1).filter(|_| turns));
@@ -148,7 +142,6 @@ pub fn margin(
 
 /// The special points of a segment before it turns back, if it does, where the parameter goes so.
 fn before_turning(special: &[SpecialValue<Section>], ahead: f64) -> &[SpecialValue<Section>] {
-    let goes_back = |pair: &[SpecialValue<Section>]| ahead * (pair[1].value - pair[0].value) < 0.0;
-    let turn = special.windows(2).position(goes_back);
+    let turn = special.windows(2).position(|it| ahead * (it[1].value - it[0].value) < 0.0);
     &special[..turn.map_or(special.len(), |before| before + 1)]
 }

@@ -29,11 +29,14 @@ pub struct Memory {
 /// Method: the records of these cases, the numbers of the blocks that are packed, of the final motions among which attractors
 /// are searched, of what was drawn, and of the slab that is written are counted.
 pub fn memory(study: &Study, threads: usize, probe: &Probe) -> Memory {
+    Memory { computing: computing(study, threads, probe), joining: joining(study) }
+}
+
+/// That while cases are computed.
+fn computing(study: &Study, threads: usize, probe: &Probe) -> f64 {
     let &Probe { most, unfinished, .. } = probe;
     let cases = study.cases() as f64;
-    let numbers = numbers_of_case(study);
-    let all = numbers.values().sum::<usize>() as f64;
-    let widest = numbers.values().copied().max().unwrap_or(0) as f64;
+    let all = numbers_of_case(study).values().sum::<usize>() as f64;
     // Tiles are refined together, and packed one after the other.
     let (computed, packed) = match study.refine {
         Some(_) => (most * TILES_TOGETHER.min(study.blocks()), most),
@@ -45,6 +48,14 @@ pub fn memory(study: &Study, threads: usize, probe: &Probe) -> Memory {
     let beside = (model.outputs.len() + 2 * model.coordinates.len()) as f64 * NUMBER;
     let records = computed * (size_of::<Record>() as f64 + beside + all * NUMBER);
     let packing = packed * all * NUMBER * COPIES;
+    PROGRAM + records + packing
+}
+
+/// That while blocks are joined.
+fn joining(study: &Study) -> f64 {
+    let cases = study.cases() as f64;
+    let numbers = numbers_of_case(study);
+    let widest = numbers.values().copied().max().unwrap_or(0) as f64;
     let heads = study.blocks() as f64 * (MAKER + PLACE * numbers.len() as f64);
     let drawn = match &study.case_set {
         // Of each draw its number, too.
@@ -68,8 +79,5 @@ pub fn memory(study: &Study, threads: usize, probe: &Probe) -> Memory {
         false => 0.0,
     };
     let slab = (cases * widest).min(MOST_NUMBERS as f64) * NUMBER;
-    Memory {
-        computing: PROGRAM + records + packing,
-        joining: PROGRAM + heads + drawn + inferring + linking.max(slab + labels),
-    }
+    PROGRAM + heads + drawn + inferring + linking.max(slab + labels)
 }

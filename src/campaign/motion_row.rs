@@ -61,11 +61,11 @@ pub struct Row {
 impl Row {
     /// Its start as a section point (SI).
     pub fn start(&self, model: &'static Description) -> Section {
-        let value = |wanted: Coordinate| {
+        let values = Coordinate::of_section(model).map(|wanted| {
             let found = self.coordinates.iter().find(|(it, ..)| *it == wanted);
             found.map_or(0.0, |(_, value, _)| *value)
-        };
-        Coordinate::of_section(model).map(value).collect()
+        });
+        values.collect()
     }
 }
 
@@ -94,26 +94,22 @@ impl Rows {
     /// What is told of a motion.
     pub fn row(&self, motion: &Candidate) -> Row {
         let case = motion.case;
-        let whole = |column: &Option<Column>| {
-            let value = column.as_ref().map(|it| it.values[case]);
-            value.filter(|value| *value >= 0.0).map(|value| value as u64)
-        };
         let outcome = self.outcomes.as_ref().and_then(|it| {
             let code = it.values[case];
             it.flags.iter().find(|(known, _)| *known as f64 == code).map(|(_, name)| name.clone())
         });
-        let attractor = whole(&self.attractors);
-        let one = |(coordinate, values, varies): &(Coordinate, Vec<f64>, bool)| {
-            (*coordinate, values[case], *varies)
-        };
+        let attractor = whole(self.attractors.as_ref(), case);
+        let coordinates = self.coordinates.iter();
         Row {
             case: Some(case),
-            coordinates: self.coordinates.iter().map(one).collect(),
+            coordinates: coordinates
+                .map(|(it, values, varies)| (*it, values[case], *varies))
+                .collect(),
             speed: motion.speed,
             price: motion.price,
             energy_per_metre: motion.energy_per_metre,
             outcome: outcome.unwrap_or_default(),
-            period: whole(&self.periods).filter(|period| *period > 0),
+            period: whole(self.periods.as_ref(), case).filter(|period| *period > 0),
             attractor,
             share: attractor.and_then(|it| self.shares.get(it as usize).copied()),
             errors: None,
@@ -151,6 +147,12 @@ impl Rows {
             replay: replay(motion, protocol),
         }
     }
+}
+
+/// The number of a case in a column of counts; none where it has none.
+fn whole(column: Option<&Column>, case: usize) -> Option<u64> {
+    let value = column?.values[case];
+    (value >= 0.0).then_some(value as u64)
 }
 
 /// The command that computes a motion between the cases.
@@ -197,8 +199,9 @@ pub fn command(case: &Case, protocol: &Protocol) -> String {
 
 /// A file as a shell takes it for one word.
 pub fn quoted(file: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=:,".contains(c);
-    match file.chars().all(is_plain) && !file.is_empty() {
+    let mut characters = file.chars();
+    let is_plain = characters.all(|it| it.is_ascii_alphanumeric() || "/._-+=:,".contains(it));
+    match is_plain && !file.is_empty() {
         true => file.to_owned(),
         false => format!("'{}'", file.replace('\'', "'\\''")),
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
 use super::error::CampaignError;
@@ -92,6 +92,37 @@ impl Parts<'_> {
             Some(tiles) => run_tiles(self.study, machine, tiles, &order, done, finished),
         }
     }
+
+    /// Runs parts until about this time is over.
+    fn run_for(
+        &self,
+        span: Duration,
+        machine: Machine,
+        reports: &Reports<'_>,
+    ) -> Result<Found<'_>, CampaignError> {
+        let begun = Instant::now();
+        let found = Mutex::new(Found::nothing(self));
+        self.run(
+            machine,
+            |part, record| {
+                let cases = self.count_cases(part);
+                reports.note(Event::Case { block: part, cases, record })?;
+                let mut found = locked(&found);
+                found.add(part, record);
+                // Of a refined study the cases that it will have are known once a tile is done.
+                let is_known = self.study.refine.is_none() || found.tiles_met > 0;
+                match begun.elapsed() < if is_known { span } else { PATIENCE * span } {
+                    true => ControlFlow::Continue(()),
+                    false => ControlFlow::Break(()),
+                }
+            },
+            |part, records| {
+                locked(&found).keep_tile(part, records);
+                ControlFlow::Continue(())
+            },
+        )?;
+        Ok(found.into_inner().unwrap_or_else(|it| it.into_inner()))
+    }
 }
 
 /// The state of a probe.
@@ -131,40 +162,10 @@ pub fn probe(
 ) -> Result<Probe, CampaignError> {
     let reports = Reports::new(report);
     let parts = Parts::of(study);
-    let found = Mutex::new(Found {
-        parts: &parts,
-        forecast: Forecast::new(study.cases()),
-        begun: BTreeMap::new(),
-        unfinished: [0, 0],
-        computed: (0, 0),
-        records: Vec::new(),
-        every: 1,
-        tiles: Vec::new(),
-        every_tile: 1,
-        tiles_met: 0,
-        needed: 0,
-    });
     let begun = Instant::now();
-    let lock = || found.lock().unwrap_or_else(|it| it.into_inner());
-    let each = |part: usize, record: &Record| {
-        let cases = parts.count_cases(part);
-        reports.note(Event::Case { block: part, cases, record })?;
-        lock().add(part, record);
-        // Of a refined study the cases that it will have are known once a tile is done.
-        let is_known = study.refine.is_none() || lock().tiles_met > 0;
-        match begun.elapsed() < if is_known { span } else { PATIENCE * span } {
-            true => ControlFlow::Continue(()),
-            false => ControlFlow::Break(()),
-        }
-    };
-    let whole = |part: usize, records: Vec<Record>| {
-        lock().keep_tile(part, records);
-        ControlFlow::Continue(())
-    };
-    parts.run(machine, each, whole)?;
+    let mut found = parts.run_for(span, machine, &reports)?;
     reports.check()?;
     let time = begun.elapsed();
-    let mut found = found.into_inner().unwrap_or_else(|it| it.into_inner());
     if study.refine.is_none() && found.computed.0 < study.cases() {
         found.records = match study.inherit() {
             Some(_) => spread_cases(study, machine)?,
@@ -185,8 +186,8 @@ fn spread_runs(study: &Study, machine: Machine) -> Result<Vec<Record>, CampaignE
         if begun.elapsed() > SPREAD || records.len() >= WEIGHED {
             break;
         }
-        let cases = |run: &usize| run * RUN..((run + 1) * RUN).min(study.cases());
-        let cases: Vec<usize> = runs.iter().flat_map(cases).collect();
+        let cases: Vec<usize> =
+            runs.iter().flat_map(|run| run * RUN..((run + 1) * RUN).min(study.cases())).collect();
         records.extend(run_sample(study, machine, &cases, || ())?);
     }
     Ok(records)
@@ -234,7 +235,40 @@ fn spread_cases(study: &Study, machine: Machine) -> Result<Vec<Record>, Campaign
     Ok(records)
 }
 
-impl Found<'_> {
+fn locked<'m, 'a>(found: &'m Mutex<Found<'a>>) -> MutexGuard<'m, Found<'a>> {
+    found.lock().unwrap_or_else(|it| it.into_inner())
+}
+
+/// Whether a case is weighed, where one run in so many is.
+fn is_weighed(index: usize, every: usize) -> bool {
+    (index / RUN).is_multiple_of(every)
+}
+
+/// The most cases that are computed of a block of a study, of which so large a share of all cases is computed.
+fn most_of_block(study: &Study, computed: f64) -> usize {
+    let sizes = (0..study.blocks()).map(|block| study.cases_of_block(block));
+    let largest = sizes.max().unwrap_or(0) as f64;
+    if computed.is_finite() { (computed * largest).ceil() as usize } else { 0 }
+}
+
+impl<'a> Found<'a> {
+    /// Nothing yet.
+    fn nothing(parts: &'a Parts<'a>) -> Found<'a> {
+        Found {
+            parts,
+            forecast: Forecast::new(parts.study.cases()),
+            begun: BTreeMap::new(),
+            unfinished: [0, 0],
+            computed: (0, 0),
+            records: Vec::new(),
+            every: 1,
+            tiles: Vec::new(),
+            every_tile: 1,
+            tiles_met: 0,
+            needed: 0,
+        }
+    }
+
     /// Notes a record of a part.
     fn add(&mut self, part: usize, record: &Record) {
         let cycles = record.orbit.cycles;
@@ -250,14 +284,13 @@ impl Found<'_> {
             *now -= *done;
         }
         self.computed = (self.computed.0 + 1, self.computed.1 + cycles);
-        let is_kept = |every: usize, index: usize| (index / RUN).is_multiple_of(every);
-        if is_kept(self.every, record.index) {
+        if is_weighed(record.index, self.every) {
             self.records.push(record.clone());
         }
         // The first cases of all chains are not like the others.
         if self.records.len() > 2 * WEIGHED {
             self.every *= 2;
-            self.records.retain(|record| is_kept(self.every, record.index));
+            self.records.retain(|record| is_weighed(record.index, self.every));
         }
     }
 
@@ -275,15 +308,29 @@ impl Found<'_> {
         }
         self.tiles_met += 1;
         let of_case: usize = numbers_of_case(self.parts.study).values().sum();
-        let cases = |tiles: &[(Vec<usize>, Vec<Record>)]| -> usize {
-            tiles.iter().map(|(cases, _)| cases.len()).sum()
-        };
         // The first tiles that are done are not like the others.
-        while self.tiles.len() > 1 && cases(&self.tiles) * of_case > NUMBERS {
+        while self.tiles.len() > 1 && self.cases_of_tiles() * of_case > NUMBERS {
             let mut kept = 0..;
             self.tiles.retain(|_| kept.next().is_some_and(|it: usize| it.is_multiple_of(2)));
             self.every_tile *= 2;
         }
+    }
+
+    /// Cases of the tiles that are weighed.
+    fn cases_of_tiles(&self) -> usize {
+        self.tiles.iter().map(|(cases, _)| cases.len()).sum()
+    }
+
+    /// Time that all cases would take, of which this share is computed, and that of packing them; all in seconds.
+    fn seconds(&self, time: Duration, share: f64, packing: f64) -> Option<Estimate> {
+        let (cases, cycles) = self.computed;
+        let pace = time.as_secs_f64() / cycles as f64;
+        let inferred = (1.0 - share) * self.parts.study.cases() as f64;
+        let checking = inferred.min(CHECKED as f64) * time.as_secs_f64() / cases as f64;
+        self.forecast.cycles().map(|cycles| Estimate {
+            value: cycles.value * pace + packing + checking,
+            error: cycles.error * pace,
+        })
     }
 
     /// The estimate for all cases.
@@ -294,8 +341,6 @@ impl Found<'_> {
         searching: Option<Estimate>,
     ) -> Result<Probe, CampaignError> {
         let study = self.parts.study;
-        let (cases, cycles) = self.computed;
-        let pace = time.as_secs_f64() / cycles as f64;
         self.records.sort_by_key(|record| record.index);
         self.records.dedup_by_key(|record| record.index);
         // Of a refined study fewer cases are kept than there are.
@@ -307,30 +352,20 @@ impl Found<'_> {
         let packed = packed_bytes(study, &self.records).map_err(CampaignError::Packing)?;
         let storing = storing(study, &self.records, kept)?;
         let packing = storing.packing / machine.threads() as f64;
-        let inferred = (1.0 - kept) * study.cases() as f64;
-        let checking = inferred.min(CHECKED as f64) * time.as_secs_f64() / cases as f64;
-        let seconds = self.forecast.cycles().map(|cycles| Estimate {
-            value: cycles.value * pace + packing + checking,
-            error: cycles.error * pace,
-        });
-        let bytes = packed as f64 * factor;
         let file_bytes = match study.refine {
             None => file_bytes(study, &self.records)?,
             Some(_) => refined_file_bytes(study, &self.tiles, kept)?,
         };
-        let sizes = (0..study.blocks()).map(|block| study.cases_of_block(block));
-        let largest = sizes.max().unwrap_or(0) as f64;
-        let most = if kept.is_finite() { (kept * largest).ceil() as usize } else { 0 };
         Ok(Probe {
-            cases,
+            cases: self.computed.0,
             blocks: self.begun.len(),
             time,
-            seconds,
+            seconds: self.seconds(time, kept, packing),
             searching,
             writing: storing.joining,
-            most,
+            most: most_of_block(study, kept),
             unfinished: self.unfinished[1],
-            bytes,
+            bytes: packed as f64 * factor,
             file_bytes,
         })
     }

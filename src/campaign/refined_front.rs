@@ -12,7 +12,7 @@ use super::replay::Replay;
 use super::report::silent;
 use crate::description::{Output, Outputs, Parameter, Parameters, Section, State};
 use crate::model::Setting;
-use crate::motion::{Case, Orbit};
+use crate::motion::Case;
 use crate::of::settle_case;
 use crate::orbit::{Outcome, Protocol};
 use crate::run::{Machine, on_all_threads};
@@ -170,8 +170,9 @@ impl Refinement<'_> {
         let is_drawn = matches!(search.from, Start::Drawn { .. });
         let found = best(&family, first, search.goal);
         // A case that is the best already is among the motions as it is.
-        let gain = |it: &Best| self.gain(search.goal, [&before, &it.at.outputs]);
-        let found = found.filter(|it| is_drawn || gain(it) >= LEAST_GAIN);
+        let found = found.filter(|it| {
+            is_drawn || self.gain(search.goal, [&before, &it.at.outputs]) >= LEAST_GAIN
+        });
         let mut led = Led::default();
         found.into_iter().for_each(|it| led.add(self.settled(&family, &it, search.from)));
         Ok(led)
@@ -211,16 +212,11 @@ impl Refinement<'_> {
         let protocol = self.protocol();
         let orbit = settle_case(&again, &protocol);
         let plain = settle_case(&again, &Protocol { accelerate: false, ..protocol });
-        let agrees = |orbit: &Orbit, output: Output| {
-            let [told, known] = [orbit.outputs[output], found.at.outputs[output]];
-            (told - known).abs() <= AGREES * known.abs()
-        };
-        let is_found = |it: &Orbit| {
-            let is_periodic = it.outcome == Outcome::Periodic && it.period == family.period;
-            is_periodic
-                && [self.study.base.model().speed(), self.of].iter().all(|of| agrees(it, *of))
-        };
-        let is_same = is_found(&orbit) && is_found(&plain);
+        let is_same = [&orbit, &plain].iter().all(|it| {
+            it.outcome == Outcome::Periodic
+                && it.period == family.period
+                && self.agree(&it.outputs, &found.at.outputs)
+        });
         let slopes = Slopes {
             sensitivity: self.sensitivity(&setting, &found.at, family.period),
             stationarity: Some(found.stationarity),
@@ -238,12 +234,21 @@ impl Refinement<'_> {
         })
     }
 
+    /// Whether a motion that is settled to has the speed and the price of the one that is known.
+    fn agree(&self, told: &Outputs, known: &Outputs) -> bool {
+        [self.study.base.model().speed(), self.of]
+            .iter()
+            .all(|of| (told[*of] - known[*of]).abs() <= AGREES * known[*of].abs())
+    }
+
     /// The relative gain from one motion to another.
     fn gain(&self, goal: Goal, [from, to]: [&Outputs; 2]) -> f64 {
-        let ratio = |output: Output| to[output] / from[output];
         match goal {
-            Goal::Speed { .. } => ratio(self.study.base.model().speed()) - 1.0,
-            Goal::Least(output) => 1.0 - ratio(output),
+            Goal::Speed { .. } => {
+                let speed = self.study.base.model().speed();
+                to[speed] / from[speed] - 1.0
+            }
+            Goal::Least(output) => 1.0 - to[output] / from[output],
         }
     }
 
@@ -294,8 +299,9 @@ impl Refinement<'_> {
         let (model, tolerance) = (self.study.model(), self.study.protocol.tolerance);
         each.filter_map(|(parameter, value)| {
             let found = model.sensitivity(setting, &at.section, period, tolerance, parameter)?;
-            let relative = |output: Output| value * found.slopes[output] / found.outputs[output];
-            Some((parameter, [relative(self.study.base.model().speed()), relative(self.of)]))
+            let relative = [self.study.base.model().speed(), self.of]
+                .map(|output| value * found.slopes[output] / found.outputs[output]);
+            Some((parameter, relative))
         })
         .collect()
     }

@@ -74,6 +74,14 @@ impl RefinedMotion {
         self.slopes.held_by.iter().any(|hold| hold == NOT_CONVERGED)
     }
 
+    /// Whether another motion is this one: in period, speed, work, power and energy per metre.
+    fn is_same(&self, other: &RefinedMotion) -> bool {
+        let model = self.outputs.model();
+        let told_apart = [model.speed(), model.work(), model.power(), model.energy_per_distance()];
+        let mut both = told_apart.iter().map(|it| (self.outputs[*it], other.outputs[*it]));
+        self.period == other.period && both.all(|(a, b)| a == b || (a - b).abs() <= SAME * a.abs())
+    }
+
     /// The value of a coordinate (SI); that of its start is its section point.
     pub fn coordinate(&self, coordinate: Coordinate) -> f64 {
         match coordinate {
@@ -124,16 +132,7 @@ const SAME: f64 = 1e-8;
 pub fn distinct(found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
     let mut distinct: Vec<RefinedMotion> = Vec::new();
     for motion in found {
-        let model = motion.outputs.model();
-        let told_apart = [model.speed(), model.work(), model.power(), model.energy_per_distance()];
-        let is_same = |other: &RefinedMotion| {
-            let agrees = |output: &Output| {
-                let [a, b] = [other.outputs[*output], motion.outputs[*output]];
-                a == b || (a - b).abs() <= SAME * a.abs()
-            };
-            other.period == motion.period && told_apart.iter().all(agrees)
-        };
-        match distinct.iter_mut().find(|other| is_same(other)) {
+        match distinct.iter_mut().find(|other| other.is_same(&motion)) {
             Some(other) if motion.slopes.stationarity < other.slopes.stationarity => {
                 *other = motion;
             }
@@ -146,7 +145,7 @@ pub fn distinct(found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
 
 /// What holds a motion, in words.
 pub(super) fn words(holds: &[Hold], family: &Family) -> Vec<String> {
-    let in_words = |hold: &Hold| match hold {
+    let words = holds.iter().map(|hold| match hold {
         Hold::Interior => "interior".to_owned(),
         Hold::Bound(place, side) => {
             let side = if *side == Side::Lower { "lower" } else { "upper" };
@@ -159,6 +158,6 @@ pub(super) fn words(holds: &[Hold], family: &Family) -> Vec<String> {
         Hold::Grazing => "grazing".to_owned(),
         Hold::EventSequence => "event sequence".to_owned(),
         Hold::Steps => NOT_CONVERGED.to_owned(),
-    };
-    holds.iter().map(in_words).collect()
+    });
+    words.collect()
 }

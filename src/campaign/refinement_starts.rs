@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::error::CampaignError;
 use super::refined_front::{Refinement, Search};
 use super::refined_motion::{DrawnMotion, Start};
-use crate::description::{Parameter, State};
+use crate::description::State;
 use crate::motion::Case;
 use crate::of::settle_case;
 use crate::orbit::Outcome;
@@ -45,13 +45,14 @@ impl Refinement<'_> {
         threads: Option<usize>,
         done: impl Fn() + Sync,
     ) -> Result<Vec<DrawnMotion>, CampaignError> {
-        let free = self.free().into_iter();
-        let range = |(parameter, [from, to]): (Parameter, [f64; 2])| {
-            let coordinate = Coordinate::Parameter(parameter);
-            Range { coordinate, from, to, spacing: Spacing::Linear }
-        };
-        let kind = DrawKind::LowDiscrepancy;
-        let points = Draws { kind, count, seed: self.seed, ranges: free.map(range).collect() };
+        let ranges = self.free().into_iter().map(|(parameter, [from, to])| Range {
+            coordinate: Coordinate::Parameter(parameter),
+            from,
+            to,
+            spacing: Spacing::Linear,
+        });
+        let (kind, ranges) = (DrawKind::LowDiscrepancy, ranges.collect());
+        let points = Draws { kind, count, seed: self.seed, ranges };
         let found = on_all_threads(threads, count, |number| {
             let found = self.drawn_motion(&points, number);
             done();
@@ -95,48 +96,81 @@ impl Refinement<'_> {
         optima: &Optima,
         drawn: &[DrawnMotion],
     ) -> Vec<Search> {
-        let direction = self.direction;
-        let is_periodic = |at: &usize| self.periods[candidates[*at].case] > 0.0;
-        let speed = |at: usize| direction.of(candidates[at].speed);
         let moving: Vec<usize> = (0..candidates.len())
-            .filter(|at| is_periodic(at) && speed(*at) > optima.at_rest)
+            .filter(|at| {
+                let it = &candidates[*at];
+                self.is_periodic(it) && self.direction.of(it.speed) > optima.at_rest
+            })
             .collect();
+        let mut searches: Vec<Search> = Vec::new();
+        let priced = self.for_prices(candidates, optima, drawn, &moving).into_iter();
+        for search in priced.chain(self.for_extremes(candidates, drawn, &moving)) {
+            if !searches.contains(&search) {
+                searches.push(search);
+            }
+        }
+        searches
+    }
+
+    /// Whether the motion of a case repeats.
+    fn is_periodic(&self, candidate: &Candidate) -> bool {
+        self.periods[candidate.case] > 0.0
+    }
+
+    /// The searches for the most speed at the prices of motions.
+    fn for_prices(
+        &self,
+        candidates: &[Candidate],
+        optima: &Optima,
+        drawn: &[DrawnMotion],
+        moving: &[usize],
+    ) -> Vec<Search> {
         let mut behind = self.behind_the_front(candidates, optima);
-        behind.retain(is_periodic);
+        behind.retain(|at| self.is_periodic(&candidates[*at]));
         behind.truncate(BEHIND_THE_FRONT);
-        let spread = behind.into_iter().chain(self.of_each_kind(candidates, &moving));
-        let of_front = optima.front.iter().copied().filter(is_periodic).chain(spread);
-        let for_price = |price: f64| Goal::Speed { direction, budget: Some((self.of, price)) };
-        let of_front = of_front.map(|at| (self.start(&candidates[at]), candidates[at].price));
+        let of_front = optima.front.iter().copied();
+        let of_front = of_front.filter(|at| self.is_periodic(&candidates[*at]));
+        let of_cases = of_front.chain(behind).chain(self.of_each_kind(candidates, moving));
+        let of_cases = of_cases.map(|at| (self.start(&candidates[at]), candidates[at].price));
         let of_drawn = drawn.iter().map(|it| (self.drawn_start(it), it.outputs[self.of]));
-        let priced = of_front.chain(of_drawn).map(|(from, price)| (from, for_price(price)));
-        let mut known: Vec<(Start, f64, f64)> = moving
-            .iter()
-            .map(|&at| (self.start(&candidates[at]), speed(at), candidates[at].energy_per_metre))
-            .collect();
+        let searches = of_cases.chain(of_drawn).map(|(from, price)| {
+            let budget = Some((self.of, price));
+            Search { from, goal: Goal::Speed { direction: self.direction, budget } }
+        });
+        searches.collect()
+    }
+
+    /// The searches for the most speed and for the least energy per metre, whatever the price.
+    fn for_extremes(
+        &self,
+        candidates: &[Candidate],
+        drawn: &[DrawnMotion],
+        moving: &[usize],
+    ) -> Vec<Search> {
+        let direction = self.direction;
+        // Each start with its speed and its energy per metre.
+        let mut known: Vec<(Start, f64, f64)> = Vec::new();
+        known.extend(moving.iter().map(|&at| {
+            let it = &candidates[at];
+            (self.start(it), direction.of(it.speed), it.energy_per_metre)
+        }));
         known.extend(drawn.iter().map(|it| {
             let speed = direction.of(it.outputs.speed());
             (self.drawn_start(it), speed, it.outputs[it.outputs.model().energy_per_distance()])
         }));
         let by_seed: Vec<Start> =
-            self.drawn_cases(&moving).into_iter().map(|at| self.start(&candidates[at])).collect();
+            self.drawn_cases(moving).into_iter().map(|at| self.start(&candidates[at])).collect();
         known.sort_by(|a, b| b.1.total_cmp(&a.1));
         let fastest: Vec<Start> = known.iter().take(STARTS).map(|it| it.0).collect();
         known.sort_by(|a, b| a.2.total_cmp(&b.2));
         let cheapest: Vec<Start> = known.iter().take(STARTS).map(|it| it.0).collect();
         let faster = Goal::Speed { direction, budget: None };
         let cheaper = Goal::Least(self.study.base.model().energy_per_distance());
-        let unpriced =
+        let searches =
             [(fastest, faster), (cheapest, cheaper)].into_iter().flat_map(|(best, goal)| {
-                best.into_iter().chain(by_seed.clone()).map(move |from| (from, goal))
+                best.into_iter().chain(by_seed.clone()).map(move |from| Search { from, goal })
             });
-        let mut searches: Vec<Search> = Vec::new();
-        for search in priced.chain(unpriced).map(|(from, goal)| Search { from, goal }) {
-            if !searches.contains(&search) {
-                searches.push(search);
-            }
-        }
-        searches
+        searches.collect()
     }
 
     fn start(&self, candidate: &Candidate) -> Start {
@@ -169,20 +203,21 @@ impl Refinement<'_> {
 
     /// The fastest motion of each kind in each part of the range of prices: the fastest of each part first.
     fn of_each_kind(&self, candidates: &[Candidate], moving: &[usize]) -> Vec<usize> {
-        let price = |at: usize| candidates[at].price.ln();
-        let speed = |at: usize| self.direction.of(candidates[at].speed);
-        let dear: Vec<usize> = moving.iter().copied().filter(|at| price(*at).is_finite()).collect();
+        let speeds: Vec<f64> = candidates.iter().map(|it| self.direction.of(it.speed)).collect();
+        // Each with the logarithm of its price.
+        let priced = moving.iter().map(|&at| (at, candidates[at].price.ln()));
+        let dear: Vec<(usize, f64)> = priced.filter(|(_, price)| price.is_finite()).collect();
         let [low, high] =
-            dear.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &at| {
-                [low.min(price(at)), high.max(price(at))]
+            dear.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, price)| {
+                [low.min(*price), high.max(*price)]
             });
         let mut best: BTreeMap<(usize, u64), usize> = BTreeMap::new();
-        for at in dear {
-            let share = (price(at) - low) / (high - low).max(f64::MIN_POSITIVE);
+        for (at, price) in dear {
+            let share = (price - low) / (high - low).max(f64::MIN_POSITIVE);
             let part = ((share * PARTS as f64) as usize).min(PARTS - 1);
             let kind = self.kinds.get(candidates[at].case).copied().unwrap_or_default();
             let known = best.entry((part, kind)).or_insert(at);
-            if speed(at) > speed(*known) {
+            if speeds[at] > speeds[*known] {
                 *known = at;
             }
         }
@@ -190,7 +225,7 @@ impl Refinement<'_> {
         for part in 0..PARTS {
             let mut of_part: Vec<usize> =
                 best.iter().filter(|it| it.0.0 == part).map(|it| *it.1).collect();
-            of_part.sort_by(|&a, &b| speed(b).total_cmp(&speed(a)).then(a.cmp(&b)));
+            of_part.sort_by(|&a, &b| speeds[b].total_cmp(&speeds[a]).then(a.cmp(&b)));
             found.extend(of_part.into_iter().enumerate());
         }
         // The best of all parts come first, then the second ones.

@@ -23,8 +23,8 @@ impl<'a> Replay<'a> {
     ///
     /// Fails if there is no such case.
     pub fn new(study: &'a Study, index: usize) -> Result<Self, CampaignError> {
-        let place = |chain: usize| study.chain(chain).position(|case| case == index);
-        let found = (0..study.chains()).find_map(|chain| Some((chain, place(chain)?)));
+        let found = (0..study.chains())
+            .find_map(|chain| Some((chain, study.chain(chain).position(|case| case == index)?)));
         let missing = CampaignError::NoCase { index, cases: study.cases() };
         let (chain, place) = found.ok_or(missing)?;
         Ok(Replay { study, index, chain, place })
@@ -58,8 +58,8 @@ impl<'a> Replay<'a> {
         let reports = Reports::new(report);
         let cases = self.study.chain(self.chain).count();
         reports.send(Event::Begun(Stage::Repeating, cases))?;
-        let step = || reports.step(Stage::Repeating);
-        let records = run_sample(self.study, machine, &[self.chain], step)?;
+        let records =
+            run_sample(self.study, machine, &[self.chain], || reports.step(Stage::Repeating))?;
         reports.send(Event::Ended(Stage::Repeating))?;
         if let Some(record) = records.iter().find(|record| record.index == self.index) {
             (case.start, case.start_phase) = (record.start.clone(), record.start_phase);

@@ -1,5 +1,6 @@
 //! Where the results of a study lie, where their blocks lie, and whether a file can be written there.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::store;
@@ -31,26 +32,27 @@ pub(super) fn partial_path(output: &Path) -> PathBuf {
 /// the study itself.
 pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, CampaignError> {
     let stem = file_stem(study)?;
-    let default = || Path::new("results").join(&stem).join(format!("{stem}.h5"));
-    let output = output.map_or_else(default, Path::to_owned);
-    let unfit = |path: &Path, fault: &str| {
-        Err(CampaignError::Path { path: path.to_owned(), fault: fault.to_owned() })
+    let output = match output {
+        Some(output) => output.to_owned(),
+        None => Path::new("results").join(&stem).join(format!("{stem}.h5")),
     };
     let whole = std::path::absolute(&output).unwrap_or_else(|_| output.clone());
     if whole.to_str().is_none() {
-        return unfit(&whole, store::NO_TEXT);
+        return Err(CampaignError::of_path(&whole, store::NO_TEXT));
     }
     let name = output.file_name().map_or(0, |name| name.len());
     if name > LONGEST_NAME {
-        return unfit(&output, &format!("the name has {name} bytes; {LONGEST_NAME} are the most"));
+        let fault = format!("the name has {name} bytes; {LONGEST_NAME} are the most");
+        return Err(CampaignError::of_path(&output, fault));
     }
     if output.extension().is_some_and(|extension| extension == BLOCKS) {
-        return unfit(&output, "that extension is for the folder of blocks");
+        let fault = "that extension is for the folder of blocks";
+        return Err(CampaignError::of_path(&output, fault));
     }
     let output = store::place(&output)?;
-    let same = |path: &Path| std::fs::canonicalize(path).ok();
-    if same(&output).is_some_and(|output| Some(output) == same(study)) {
-        return unfit(&output, "is the study itself; name another file");
+    let [own, of_study] = [&output, study].map(|path| std::fs::canonicalize(path).ok());
+    if own.is_some() && own == of_study {
+        return Err(CampaignError::of_path(&output, "is the study itself; name another file"));
     }
     Ok(output)
 }
@@ -58,8 +60,7 @@ pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, Campa
 /// The name of a file without its folder and extension.
 fn file_stem(path: &Path) -> Result<String, CampaignError> {
     let stem = path.file_stem().and_then(|stem| stem.to_str());
-    let fault = "names no file".to_owned();
-    stem.map(str::to_owned).ok_or(CampaignError::Path { path: path.to_owned(), fault })
+    stem.map(str::to_owned).ok_or_else(|| CampaignError::of_path(path, "names no file"))
 }
 
 /// Creates the folder of the results, and checks before a long run that the file can be written there.
@@ -69,8 +70,11 @@ pub(super) fn prepare(output: &Path) -> Result<(), CampaignError> {
         let (folder, file) = (folder.to_owned(), file.to_owned());
         return Err(CampaignError::NoFolder { folder, file });
     }
-    let failed =
-        |refused| move |said| CampaignError::Refused { folder: folder.to_owned(), refused, said };
-    std::fs::create_dir_all(folder).map_err(failed("cannot be created"))?;
-    store::try_to_begin(output).map_err(failed("no file can be written there"))
+    std::fs::create_dir_all(folder).map_err(|said| refused(folder, "cannot be created", said))?;
+    store::try_to_begin(output)
+        .map_err(|said| refused(folder, "no file can be written there", said))
+}
+
+fn refused(folder: &Path, refused: &'static str, said: io::Error) -> CampaignError {
+    CampaignError::Refused { folder: folder.to_owned(), refused, said }
 }

@@ -59,10 +59,11 @@ impl Tolerances {
     /// The factors of the parameters named in each draw, the same for every motion; fewer draws are the first of more.
     pub fn factors(&self) -> Vec<Vec<(Parameter, f64)>> {
         let mut random = fastrand::Rng::with_seed(self.seed);
-        let mut one = |(parameter, most): &(Parameter, f64)| {
-            (*parameter, 1.0 + most * (2.0 * random.f64() - 1.0))
-        };
-        (0..self.draws).map(|_| self.each.iter().map(&mut one).collect()).collect()
+        let draws = (0..self.draws).map(|_| {
+            let each = self.each.iter();
+            each.map(|(it, most)| (*it, 1.0 + most * (2.0 * random.f64() - 1.0))).collect()
+        });
+        draws.collect()
     }
 }
 
@@ -75,24 +76,27 @@ impl Robustness {
     /// is interpolated.
     pub fn of(all: &[Draw]) -> Robustness {
         let draws = all.len();
-        let rank = ((SLOWER * draws as f64).ceil() as usize).clamp(1, draws.max(1)) - 1;
-        let lowest = |values: Vec<f64>| {
-            let mut values = values;
-            values.sort_by(f64::total_cmp);
-            values.get(rank).copied().unwrap_or(f64::NAN)
-        };
-        let or_worst = |value: f64| if value.is_nan() { f64::NEG_INFINITY } else { value };
         let kept = all.iter().filter(|draw| draw.is_kept).count();
         Robustness {
             draws,
             kept: kept as f64 / draws as f64,
-            speed: lowest(all.iter().map(|draw| or_worst(draw.speed)).collect()),
-            price: -lowest(all.iter().map(|draw| or_worst(-draw.price)).collect()),
+            speed: low_quantile(all.iter().map(|draw| draw.speed)),
+            price: -low_quantile(all.iter().map(|draw| -draw.price)),
             meet_conditions: counted(all, |draw| draw.meets_conditions),
             within_budget: counted(all, |draw| draw.is_within_budget),
             meet_both: counted(all, |draw| Some(draw.meets_conditions? && draw.is_within_budget?)),
         }
     }
+}
+
+/// The value that 5 % of the draws fall below; those without a value are the lowest.
+fn low_quantile(values: impl Iterator<Item = f64>) -> f64 {
+    let values = values.map(|value| if value.is_nan() { f64::NEG_INFINITY } else { value });
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    let draws = values.len();
+    let rank = ((SLOWER * draws as f64).ceil() as usize).clamp(1, draws.max(1)) - 1;
+    values.get(rank).copied().unwrap_or(f64::NAN)
 }
 
 /// How many draws do something; none where it was not asked of them.

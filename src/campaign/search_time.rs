@@ -39,13 +39,10 @@ pub(super) fn search_seconds(
         if begun.elapsed() > span && !found.is_empty() {
             break;
         }
-        let part = part(study, number, STARTS);
-        let chains: Vec<usize> = (0..part.chains()).collect();
-        let motions = final_motions(&part, &run_sample(&part, machine, &chains, || ())?);
-        let few = seconds(&part, &motions, machine)?;
+        let few = Measured::of(part(study, number, STARTS), machine)?;
         found.push(match links(study) {
-            0 => few + growth((study, number), (&part, &motions, few), machine)?,
-            links_of_all => few * links_of_all as f64 / links(&part).max(1) as f64,
+            0 => few.seconds + few.growth(&part(study, number, MANY_STARTS), study, machine)?,
+            links_of_all => few.seconds * links_of_all as f64 / links(&few.part).max(1) as f64,
         });
     }
     Ok(Some(mean(&found)))
@@ -59,22 +56,35 @@ fn seconds(study: &Study, motions: &FinalMotions, machine: Machine) -> Result<f6
     Ok(begun.elapsed().as_secs_f64())
 }
 
-/// The time that all starts of `study` take beyond that of a part with few of them [s].
-fn growth(
-    (study, number): (&Study, usize),
-    (few, motions, least): (&Study, &FinalMotions, f64),
-    machine: Machine,
-) -> Result<f64, RunError> {
-    let many = part(study, number, MANY_STARTS);
-    if many.cases() <= few.cases() {
-        return Ok(0.0);
+/// A part of a study with the motions of its cases, and how long the search for their attractors takes.
+struct Measured {
+    part: Study,
+    motions: FinalMotions,
+    /// How long it takes [s].
+    seconds: f64,
+}
+
+impl Measured {
+    fn of(part: Study, machine: Machine) -> Result<Measured, RunError> {
+        let chains: Vec<usize> = (0..part.chains()).collect();
+        let motions = final_motions(&part, &run_sample(&part, machine, &chains, || ())?);
+        let seconds = seconds(&part, &motions, machine)?;
+        Ok(Measured { part, motions, seconds })
     }
-    let (large, small) = (many.shape(), few.shape());
-    let as_nearest = |case: usize| Some((case, motions.get(nearest(case, &large, &small))?));
-    let motions = FinalMotions::of(&many, (0..many.cases()).filter_map(as_nearest));
-    let more = (seconds(&many, &motions, machine)? - least).max(0.0);
-    let beyond = |study: &Study| (study.cases() - few.cases()) as f64;
-    Ok(more * beyond(study) / beyond(&many))
+
+    /// The time that all starts of a study take beyond that of this part [s], by a part that has many of them.
+    fn growth(&self, many: &Study, all: &Study, machine: Machine) -> Result<f64, RunError> {
+        let few = self.part.cases();
+        if many.cases() <= few {
+            return Ok(0.0);
+        }
+        let (large, small) = (many.shape(), self.part.shape());
+        let as_nearest = (0..many.cases())
+            .filter_map(|case| Some((case, self.motions.get(nearest(case, &large, &small))?)));
+        let motions = FinalMotions::of(many, as_nearest);
+        let more = (seconds(many, &motions, machine)? - self.seconds).max(0.0);
+        Ok(more * (all.cases() - few) as f64 / (many.cases() - few) as f64)
+    }
 }
 
 /// The case of a small grid that lies where `case` lies in a large one of as many axes.

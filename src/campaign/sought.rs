@@ -46,17 +46,16 @@ impl Refinement<'_> {
         threads: Option<usize>,
         reports: &Reports<'_>,
     ) -> Result<Sought, CampaignError> {
-        let step = |stage: Stage| move || reports.step(stage);
         reports.send(Event::Begun(Stage::Starting, points))?;
-        let drawn = self.drawn_motions(points, threads, step(Stage::Starting))?;
+        let drawn = self.drawn_motions(points, threads, || reports.step(Stage::Starting))?;
         reports.send(Event::Ended(Stage::Starting))?;
         let searches = self.searches(cases, optima, &drawn);
         reports.send(Event::Begun(Stage::Searching, searches.len()))?;
-        let found = self.run(&searches, &drawn, threads, step(Stage::Searching))?;
+        let found = self.run(&searches, &drawn, threads, || reports.step(Stage::Searching))?;
         reports.send(Event::Ended(Stage::Searching))?;
         let ladders = self.ladders(&self.front(cases, &found.motions).points, &found.motions);
         reports.send(Event::Begun(Stage::Climbing, ladders.len()))?;
-        let climbed = self.followed(&ladders, threads, step(Stage::Climbing))?;
+        let climbed = self.followed(&ladders, threads, || reports.step(Stage::Climbing))?;
         reports.send(Event::Ended(Stage::Climbing))?;
         let climbing = ladders.len();
         let both = distinct([found.motions, climbed.motions].concat());
@@ -64,7 +63,8 @@ impl Refinement<'_> {
         let prices = front.points.iter().map(|it| it.0);
         let gaps = self.gaps(&prices.zip(front.motions).collect::<Vec<_>>());
         reports.send(Event::Begun(Stage::Following, gaps.len()))?;
-        let Led { motions, unsettled } = self.followed(&gaps, threads, step(Stage::Following))?;
+        let Led { motions, unsettled } =
+            self.followed(&gaps, threads, || reports.step(Stage::Following))?;
         reports.send(Event::Ended(Stage::Following))?;
         let searched = Searched {
             searches: searches.len() + climbing + gaps.len(),
@@ -83,10 +83,10 @@ impl Refinement<'_> {
         let refined = numbered.map(|(place, motion)| motion.candidate(count + place, self.of));
         let all: Vec<Candidate> = cases.iter().copied().chain(refined).collect();
         let front = best_of(&all, self.direction, Some(self.at_rest));
-        let refined = |&at: &usize| Some(&motions[all[at].case.checked_sub(count)?]);
+        let refined = front.front.iter().map(|&at| all[at].case.checked_sub(count));
         Front {
             points: front.points(&all, self.direction),
-            motions: front.front.iter().map(refined).collect(),
+            motions: refined.map(|place| Some(&motions[place?])).collect(),
         }
     }
 }

@@ -9,7 +9,6 @@ use super::motion_row::Row;
 use super::refined_front::Refinement;
 use super::replay::Replay;
 use super::report::silent;
-use crate::description::Output;
 use crate::experiment::settled_motion::outputs_of_batches;
 use crate::of::settle_case;
 use crate::run::{Machine, on_all_threads};
@@ -43,8 +42,9 @@ impl Refinement<'_> {
         let (case, protocol) = (replay.as_run(Machine::single(), &silent)?, replay.protocol());
         let end = settle_case(&case, protocol).end;
         Ok(outputs_of_batches(&case, &end, protocol).map(|batches| {
-            let means = |of: Output| batches.iter().map(|it| it[of]).collect::<Vec<_>>();
-            MeanErrors::of(&means(self.study.base.model().speed()), &means(self.of))
+            let [speeds, prices] = [self.study.base.model().speed(), self.of]
+                .map(|of| batches.iter().map(|it| it[of]).collect::<Vec<f64>>());
+            MeanErrors::of(&speeds, &prices)
         }))
     }
 }
@@ -55,14 +55,18 @@ pub(super) fn add_errors(
     refinement: &Refinement<'_>,
     threads: Option<usize>,
 ) -> Result<(), CampaignError> {
-    let aperiodic = |row: &Row| row.case.filter(|_| row.period.is_none());
     // A motion may be an optimum and on the front.
-    let cases: BTreeSet<usize> = answer.rows().filter_map(aperiodic).collect();
+    let cases: BTreeSet<usize> = answer.rows().filter_map(aperiodic_case).collect();
     let cases: Vec<usize> = cases.into_iter().collect();
     let found = refinement.mean_errors(&cases, threads)?;
     for row in answer.rows_mut() {
-        let place = aperiodic(row).and_then(|case| cases.binary_search(&case).ok());
+        let place = aperiodic_case(row).and_then(|case| cases.binary_search(&case).ok());
         row.errors = place.and_then(|place| found[place]);
     }
     Ok(())
+}
+
+/// The case of a motion that does not repeat.
+fn aperiodic_case(row: &Row) -> Option<usize> {
+    row.case.filter(|_| row.period.is_none())
 }

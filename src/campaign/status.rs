@@ -104,13 +104,14 @@ impl BlockStatus {
     pub fn pace(&self, study: &Study) -> Option<Pace> {
         let last = *self.written.iter().max()?;
         let since_last = last.elapsed().unwrap_or(Duration::ZERO);
-        let recent = |at: &SystemTime| last.duration_since(*at).is_ok_and(|ago| ago <= RECENT);
-        let first = self.written.iter().copied().filter(recent).min().unwrap_or(last);
+        let written = self.written.iter().copied();
+        let recent = written.filter(|at| last.duration_since(*at).is_ok_and(|ago| ago <= RECENT));
+        let first = recent.min().unwrap_or(last);
         let span = last.duration_since(first).unwrap_or(Duration::ZERO).as_secs_f64();
         // The first block of the span was computed before it.
-        let within = |at: &SystemTime| *at > first && *at <= last;
-        let both = self.done.iter().zip(&self.written);
-        let in_span: Vec<&Summary> = both.filter(|(_, at)| within(at)).map(|(it, _)| it).collect();
+        let in_span = self.done.iter().zip(&self.written);
+        let in_span = in_span.filter(|(_, at)| **at > first && **at <= last);
+        let in_span: Vec<&Summary> = in_span.map(|(it, _)| it).collect();
         let cases: usize = in_span.iter().map(|block| block.cases).sum();
         let cycles: u64 = in_span.iter().map(|block| block.cycles).sum();
         if cycles == 0 || span == 0.0 {

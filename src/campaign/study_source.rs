@@ -22,8 +22,8 @@ pub fn read_study(path: &Path) -> Result<Study, CampaignError> {
     let own = text(path, Pipes::OfShell)?;
     let Some(file) = include::included(&own) else { return Ok(Study::parse(&name, &own)?) };
     let values = text(&store::folder(path).join(&file), Pipes::Refused)?;
-    let failed = |fault| CampaignError::Path { path: path.to_owned(), fault };
-    let whole = include::include(&own, &file, &values).map_err(failed)?;
+    let whole = include::include(&own, &file, &values)
+        .map_err(|fault| CampaignError::of_path(path, fault))?;
     Ok(Study::parse(&name, &whole.text).map_err(|faults| whole.as_written(faults))?)
 }
 
@@ -43,16 +43,16 @@ pub fn read_study_or_results(path: &Path) -> Result<Study, CampaignError> {
 
 /// The text of a study file.
 fn text(path: &Path, pipes: Pipes) -> Result<String, CampaignError> {
-    let failed = |fault| CampaignError::Path { path: path.to_owned(), fault };
     let bytes = store::read_input(path, pipes)
-        .map_err(|error| failed(format!("cannot be read: {error}")))?;
+        .map_err(|error| CampaignError::of_path(path, format!("cannot be read: {error}")))?;
     if bytes.starts_with(HDF5) {
-        return Err(failed("is a file of results; give the study, a TOML file".to_owned()));
+        let fault = "is a file of results; give the study, a TOML file";
+        return Err(CampaignError::of_path(path, fault));
     }
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = valid.iter().filter(|&&byte| byte == b'\n').count() + 1;
-        failed(format!("line {line}: is not text in UTF-8"))
+        CampaignError::of_path(path, format!("line {line}: is not text in UTF-8"))
     })
 }
 

@@ -32,7 +32,8 @@ impl Refinement<'_> {
         &self,
         rows: &[&Row],
         tolerances: &Tolerances,
-        (threads, done): (Option<usize>, impl Fn() + Sync),
+        threads: Option<usize>,
+        done: impl Fn() + Sync,
     ) -> Result<Vec<Option<Robustness>>, CampaignError> {
         let draws = tolerances.factors();
         let found = on_all_threads(threads, rows.len(), |number| {
@@ -46,31 +47,31 @@ impl Refinement<'_> {
 
     /// What is left of a motion in draws with these factors of its parameters.
     fn under(&self, motion: &Whereabouts, draws: &[Vec<(Parameter, f64)>]) -> Robustness {
-        let draw = |factors: &Vec<(Parameter, f64)>| {
-            let mut parameters = motion.parameters.clone();
-            for (parameter, factor) in factors {
-                parameters[*parameter] *= factor;
-            }
-            let start = State::at_section(self.study.base.model(), &motion.section);
-            let case = Case::at_section(parameters, start, motion.phase);
-            let orbit = settle_case(&case, &self.protocol());
-            let counts = takes_part(orbit.outcome.name());
-            let outputs = if counts {
-                orbit.outputs.clone()
-            } else {
-                Outputs::unknown(self.study.base.model())
-            };
-            let price = outputs[self.of];
-            let meets = self.asked.met(&case.parameters, &orbit);
-            Draw {
-                speed: self.direction.of(outputs.speed()),
-                price,
-                is_kept: orbit.outcome == Outcome::Periodic && orbit.period == motion.period,
-                meets_conditions: meets.map(|it| it && counts),
-                is_within_budget: self.budget.map(|most| price <= most),
-            }
-        };
-        Robustness::of(&draws.iter().map(draw).collect::<Vec<_>>())
+        let draws: Vec<Draw> = draws.iter().map(|factors| self.draw(motion, factors)).collect();
+        Robustness::of(&draws)
+    }
+
+    /// A draw of a motion with these factors of its parameters.
+    fn draw(&self, motion: &Whereabouts, factors: &[(Parameter, f64)]) -> Draw {
+        let mut parameters = motion.parameters.clone();
+        for (parameter, factor) in factors {
+            parameters[*parameter] *= factor;
+        }
+        let start = State::at_section(self.study.base.model(), &motion.section);
+        let case = Case::at_section(parameters, start, motion.phase);
+        let orbit = settle_case(&case, &self.protocol());
+        let counts = takes_part(orbit.outcome.name());
+        let outputs =
+            if counts { orbit.outputs.clone() } else { Outputs::unknown(self.study.base.model()) };
+        let price = outputs[self.of];
+        let meets = self.asked.met(&case.parameters, &orbit);
+        Draw {
+            speed: self.direction.of(outputs.speed()),
+            price,
+            is_kept: orbit.outcome == Outcome::Periodic && orbit.period == motion.period,
+            meets_conditions: meets.map(|it| it && counts),
+            is_within_budget: self.budget.map(|most| price <= most),
+        }
     }
 }
 
@@ -78,13 +79,14 @@ impl Refinement<'_> {
 pub(super) fn judge(
     answer: &mut Answer,
     refinement: &Refinement<'_>,
-    (tolerances, threads): (&Tolerances, Option<usize>),
+    tolerances: &Tolerances,
+    threads: Option<usize>,
     reports: &Reports<'_>,
 ) -> Result<(), CampaignError> {
     let rows: Vec<&Row> = answer.rows().collect();
     reports.send(Event::Begun(Stage::Drawing, rows.len()))?;
-    let step = || reports.step(Stage::Drawing);
-    let found = refinement.robustness(&rows, tolerances, (threads, step))?;
+    let found =
+        refinement.robustness(&rows, tolerances, threads, || reports.step(Stage::Drawing))?;
     reports.send(Event::Ended(Stage::Drawing))?;
     answer.rows_mut().zip(found).for_each(|(row, robustness)| row.robustness = robustness);
     let (mut places, mut prices, mut speeds) = (Vec::new(), Vec::new(), Vec::new());

@@ -131,25 +131,36 @@ impl TradeOff<'_> {
                 asked: OfDraws::of(&conditions, study.base.model()),
                 at_rest: optima.at_rest,
                 kinds: kinds.unwrap_or_default(),
-                ..self.refinement(study, (&rows, between), &none)
+                ..self.refinement(study, &rows, between, &none)
             }),
         };
         let reports = Reports::new(report);
         let sought = asked.between(&reports)?;
         let between = sought.as_ref().map_or(&[][..], |it| &it.motions);
-        let all = with_refined((asked.cases, &found.all), between, self.of);
+        let all = with_refined(asked.cases, &found.all, between, self.of);
         let motions = Motions { asked: &asked, between, all };
         let mut answer = Answer { left_out: found.left_out, ..motions.answer(sought.as_ref())? };
         if let Some(refinement) = &asked.refinement {
-            add_errors(&mut answer, refinement, self.threads)?;
-        }
-        if let (Some(refinement), Some(under)) = (&asked.refinement, self.under) {
-            judge(&mut answer, refinement, (under, self.threads), &reports)?;
-        }
-        if let Some(refinement) = asked.refinement.as_ref().filter(|_| self.margins) {
-            bound(&mut answer, refinement, self.threads, &reports)?;
+            self.add_of_orbits(&mut answer, refinement, &reports)?;
         }
         Ok(answer)
+    }
+
+    /// Adds what is told of motions that are computed again: errors of means, what tolerances leave, and margins.
+    fn add_of_orbits(
+        &self,
+        answer: &mut Answer,
+        refinement: &Refinement<'_>,
+        reports: &Reports<'_>,
+    ) -> Result<(), CampaignError> {
+        add_errors(answer, refinement, self.threads)?;
+        if let Some(under) = self.under {
+            judge(answer, refinement, under, self.threads, reports)?;
+        }
+        if self.margins {
+            bound(answer, refinement, self.threads, reports)?;
+        }
+        Ok(())
     }
 
     /// What is asked of motions between the cases, if they are sought.
@@ -185,17 +196,20 @@ impl TradeOff<'_> {
             ("knee", best.knee),
             ("lowest_cost_of_transport", best.lowest_cost_of_transport),
         ];
-        let within = |most| ("fastest_within_budget", best.fastest_within(all, most));
-        named.extend(self.budget.map(within));
-        let least = |least| ("least_for_speed", best.least_for(all, self.direction, least));
-        named.extend(self.speed.map(least));
+        if let Some(most) = self.budget {
+            named.push(("fastest_within_budget", best.fastest_within(all, most)));
+        }
+        if let Some(least) = self.speed {
+            named.push(("least_for_speed", best.least_for(all, self.direction, least)));
+        }
         named
     }
 
     fn refinement<'r>(
         &'r self,
         study: &'r Study,
-        (rows, conditions): (&Rows, Conditions),
+        rows: &Rows,
+        conditions: Conditions,
         none: &'r KeptSearches,
     ) -> Refinement<'r> {
         let kept = match self.between {
@@ -275,21 +289,9 @@ impl Asked<'_> {
 impl Motions<'_> {
     /// What is best among them, before tolerances; with what searches have brought, if there were any.
     fn answer(&self, sought: Option<&Sought>) -> Result<Answer, CampaignError> {
-        let Motions { asked, between, all } = self;
+        let Motions { asked, all, .. } = self;
         let request = asked.request;
         let best = best_of(all, request.direction, Some(asked.optima.at_rest));
-        let row = |at: usize| self.row(&all[at]);
-        let rows = |places: &[usize]| places.iter().map(|&at| row(at)).collect::<Result<_, _>>();
-        let named = |(name, at): (&'static str, Option<usize>)| -> Result<Named, CampaignError> {
-            Ok(Named { name, row: at.map(row).transpose()? })
-        };
-        let gain = |sought: &Sought| Gain {
-            searched: sought.searched.clone(),
-            drawn: sought.drawn,
-            found: between.len(),
-            seed: request.seed(),
-            hypervolumes: request.hypervolumes([(&asked.optima, asked.candidates), (&best, all)]),
-        };
         let moving = fastest_first(all, request.direction, best.at_rest);
         Ok(Answer {
             file: request.file.display().to_string(),
@@ -300,10 +302,10 @@ impl Motions<'_> {
             cases: asked.cases,
             left_out: BTreeMap::new(),
             at_rest: (best.at_rest, all.len() - moving.len()),
-            refined: sought.map(gain),
-            named: request.named(&best, all).into_iter().map(named).collect::<Result<_, _>>()?,
-            front: rows(&best.front)?,
-            top: rows(&moving[..moving.len().min(request.top)])?,
+            refined: sought.map(|sought| self.gain(sought, &best)),
+            named: self.named(&best)?,
+            front: self.rows(&best.front)?,
+            top: self.rows(&moving[..moving.len().min(request.top)])?,
             tolerances: request.under.cloned(),
             not_judged: asked
                 .refinement
@@ -311,6 +313,33 @@ impl Motions<'_> {
                 .map_or(Vec::new(), |it| it.asked.not_judged.clone()),
             robust_front: Vec::new(),
         })
+    }
+
+    /// What searches have brought, if these are the best of all motions.
+    fn gain(&self, sought: &Sought, best: &Optima) -> Gain {
+        let Motions { asked, between, all } = self;
+        let fronts = [(&asked.optima, asked.candidates), (best, &all[..])];
+        Gain {
+            searched: sought.searched.clone(),
+            drawn: sought.drawn,
+            found: between.len(),
+            seed: asked.request.seed(),
+            hypervolumes: asked.request.hypervolumes(fronts),
+        }
+    }
+
+    /// The optima that are asked for.
+    fn named(&self, best: &Optima) -> Result<Vec<Named>, CampaignError> {
+        let mut named = Vec::new();
+        for (name, at) in self.asked.request.named(best, &self.all) {
+            named.push(Named { name, row: at.map(|at| self.row(&self.all[at])).transpose()? });
+        }
+        Ok(named)
+    }
+
+    /// What is told of motions at these places.
+    fn rows(&self, places: &[usize]) -> Result<Vec<Row>, CampaignError> {
+        places.iter().map(|&at| self.row(&self.all[at])).collect()
     }
 
     /// What is told of a motion.
@@ -330,7 +359,8 @@ impl Motions<'_> {
 
 /// The candidates of so many cases, and refined motions, numbered after them.
 fn with_refined(
-    (cases, candidates): (usize, &[Candidate]),
+    cases: usize,
+    candidates: &[Candidate],
     motions: &[RefinedMotion],
     of: Output,
 ) -> Vec<Candidate> {

@@ -100,8 +100,7 @@ pub fn verify(
     let reports = Reports::new(report);
     let archive = store::open(path).map_err(CampaignError::NoResults)?;
     if !archive.has_cases() {
-        let fault = "holds no cases of a sweep".to_owned();
-        return Err(CampaignError::Path { path: path.to_owned(), fault });
+        return Err(CampaignError::of_path(path, "holds no cases of a sweep"));
     }
     let study = study_of(&archive, path)?;
     let other_program = other_program(&archive);
@@ -114,8 +113,7 @@ pub fn verify(
     reports.send(Event::Begun(Stage::Repeating, all))?;
     let mut verified = Verified { other_program, ..Verified::default() };
     for part in parts(&study, &chains) {
-        let step = || reports.step(Stage::Repeating);
-        let records = run_sample(&study, machine, part, step)?;
+        let records = run_sample(&study, machine, part, || reports.step(Stage::Repeating))?;
         reports.check()?;
         compare(&study, &archive, records, &mut verified)?;
     }
@@ -169,14 +167,11 @@ fn compare(
     mut records: Vec<Record>,
     verified: &mut Verified,
 ) -> Result<(), CampaignError> {
-    let positions = |records: &[Record]| -> Vec<Vec<usize>> {
-        records.iter().map(|record| study.position(record.index)).collect()
-    };
-    let outcomes = archive.rows(OUTCOME.name, &positions(&records))?.into_iter();
+    let outcomes = archive.rows(OUTCOME.name, &positions(study, &records))?.into_iter();
     let mut is_there = outcomes.map(|row| row.to_real().iter().all(|&code| code >= 0.0));
     records.retain(|_| is_there.next().unwrap_or(false));
     verified.cases += records.len();
-    let at = positions(&records);
+    let at = positions(study, &records);
     for (name, column) in store::schema::columns(study, &records).variables {
         let computed = column.values.to_real();
         let kept = archive.rows(&name, &at)?;
@@ -190,6 +185,11 @@ fn compare(
         }
     }
     Ok(())
+}
+
+/// Where the cases of records lie along the dimensions of the results.
+fn positions(study: &Study, records: &[Record]) -> Vec<Vec<usize>> {
+    records.iter().map(|record| study.position(record.index)).collect()
 }
 
 impl Verified {
@@ -215,7 +215,8 @@ impl Verified {
     fn sort(&mut self) {
         let differences = &mut self.differences;
         differences.sort_by(|a, b| a.variable.cmp(&b.variable));
-        let is_missing = |it: &Difference| it.differs == Differs::Missing;
-        differences.dedup_by(|b, a| is_missing(a) && is_missing(b) && a.variable == b.variable);
+        differences.dedup_by(|b, a| {
+            [&a, &b].iter().all(|it| it.differs == Differs::Missing) && a.variable == b.variable
+        });
     }
 }
