@@ -90,19 +90,7 @@ impl Appearance {
         }
         let hide = self.hide.clone();
         let mut drawing = Drawing { hide, dpi, legend: !self.no_legend, data, svg_text, ..drawing };
-        let sizes = [
-            ("width", &self.width, &mut drawing.width_mm, Size::Width),
-            ("height", &self.height, &mut drawing.height_mm, Size::Height),
-            ("marker-size", &self.marker_size, &mut drawing.marker_mm, Size::Marker),
-        ];
-        for (option, text, kept, size) in sizes {
-            let found = text.as_deref().map(millimetres).transpose();
-            let checked = found.and_then(|it| it.map_or(Ok(()), |it| size.check(it)).map(|()| it));
-            match checked {
-                Ok(found) => *kept = found,
-                Err(fault) => faults.push(format!("--{option}: {fault}")),
-            }
-        }
+        self.set_sizes(&mut drawing, &mut faults);
         let checked = self.dpi.map_or(Ok(()), |dpi| Size::Resolution.check(dpi));
         faults.extend(checked.err().map(|fault| format!("--dpi: {fault}")));
         for text in &self.text {
@@ -119,6 +107,23 @@ impl Appearance {
             }
         }
         if faults.is_empty() { Ok(drawing) } else { Err(faults) }
+    }
+
+    /// Sets the sizes of a drawing; faults are noted.
+    fn set_sizes(&self, drawing: &mut Drawing, faults: &mut Vec<String>) {
+        let sizes = [
+            ("width", &self.width, &mut drawing.width_mm, Size::Width),
+            ("height", &self.height, &mut drawing.height_mm, Size::Height),
+            ("marker-size", &self.marker_size, &mut drawing.marker_mm, Size::Marker),
+        ];
+        for (option, text, kept, size) in sizes {
+            let found = text.as_deref().map(millimetres).transpose();
+            let checked = found.and_then(|it| it.map_or(Ok(()), |it| size.check(it)).map(|()| it));
+            match checked {
+                Ok(found) => *kept = found,
+                Err(fault) => faults.push(format!("--{option}: {fault}")),
+            }
+        }
     }
 
     /// What is given of a setting.

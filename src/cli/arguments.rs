@@ -19,8 +19,7 @@ pub fn machine(
     threads: Option<u16>,
     instructions: Option<Instructions>,
 ) -> Result<Machine, Failure> {
-    let granted = || std::env::var("SLURM_CPUS_PER_TASK").ok()?.trim().parse().ok();
-    let threads = threads.map(usize::from).or_else(|| granted().filter(|&count: &usize| count > 0));
+    let threads = threads.map(usize::from).or_else(|| granted().filter(|count| *count > 0));
     let Some(missing) = instructions.filter(|it| !it.is_available()) else {
         return Ok(Machine { threads, instructions });
     };
@@ -32,13 +31,19 @@ pub fn machine(
     )))
 }
 
+/// The processors that Slurm has granted a task, if it says so.
+fn granted() -> Option<usize> {
+    std::env::var("SLURM_CPUS_PER_TASK").ok()?.trim().parse().ok()
+}
+
 /// Reads one of a few names, which the help then lists.
 pub fn named<T: Copy + Send + Sync + 'static>(
     names: &'static [(&'static str, T)],
 ) -> impl TypedValueParser<Value = T> {
-    let find = |given: &str| names.iter().find(|(name, _)| *name == given).map(|&(_, value)| value);
-    PossibleValuesParser::new(names.iter().map(|&(name, _)| name))
-        .map(move |given| find(&given).expect("only known names get here"))
+    PossibleValuesParser::new(names.iter().map(|&(name, _)| name)).map(move |given| {
+        let found = names.iter().find(|(name, _)| *name == given);
+        found.map(|&(_, value)| value).expect("only known names get here")
+    })
 }
 
 /// The model of results, of which motions gain something that has a cost.
@@ -69,9 +74,11 @@ pub fn price(
 
 /// What follows a command in a hint, so that it runs as it is printed: the study, and the output where it was given.
 pub fn study_arguments(study: &Path, output: Option<&Path>) -> String {
-    let shown = |path: &Path| quoted(&path.to_string_lossy());
-    let output = output.map_or(String::new(), |it| format!(" --output {}", shown(it)));
-    format!("{}{output}", shown(study))
+    let study = quoted(&study.to_string_lossy());
+    match output {
+        Some(output) => format!("{study} --output {}", quoted(&output.to_string_lossy())),
+        None => study,
+    }
 }
 
 /// A quantity on the command line, in SI; a plain number is in SI already, and none is infinite.
@@ -79,4 +86,16 @@ pub fn plain_or_quantity(text: &str, dimension: Dimension) -> Result<f64, String
     let plain = text.trim().parse::<f64>();
     let value = plain.or_else(|_| parse_quantity(text, dimension))?;
     if value.is_finite() { Ok(value) } else { Err(format!("{value} is not a finite number")) }
+}
+
+/// The quantity that an option was given, as [`plain_or_quantity`] reads it; a fault is noted and gives none.
+pub fn read_quantity(
+    option: &str,
+    text: &str,
+    dimension: Dimension,
+    faults: &mut Vec<String>,
+) -> Option<f64> {
+    plain_or_quantity(text, dimension)
+        .map_err(|fault| faults.push(format!("{option}: {fault}")))
+        .ok()
 }

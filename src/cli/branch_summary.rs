@@ -5,16 +5,15 @@ use std::path::Path;
 
 use crate::branch::{Curve, End, SpecialKind, is_followed};
 use crate::description::Parameter;
-use crate::motion::branch::{Branch, Found, Point, Special};
+use crate::motion::branch::{Branch, Found, Special};
 use crate::quantity::printable::printable;
 use crate::run::Continued;
 use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of the branches of `study`, and which file keeps it.
 pub fn summary(study: &Study, continued: &[Continued], output: &Path, seconds: f64) -> String {
-    let found = || continued.iter().flatten();
-    let branches: usize = found().map(|found| found.branches.len()).sum();
-    let points: usize = found().flat_map(|it| &it.branches).map(|it| it.points.len()).sum();
+    let all: Vec<&Branch> = continued.iter().flatten().flat_map(|it| &it.branches).collect();
+    let (branches, points) = (all.len(), all.iter().map(|it| it.points.len()).sum::<usize>());
     let plural = if branches == 1 { "branch" } else { "branches" };
     let shown = printable(output);
     let mut text = format!("{shown}: {branches} {plural}, {points} points in {seconds:.1} s\n");
@@ -31,16 +30,6 @@ pub fn summary(study: &Study, continued: &[Continued], output: &Path, seconds: f
 fn write_found(text: &mut String, continuation: &Continuation, found: &Found) {
     let Continuation { name, along, .. } = continuation;
     for (number, branch) in found.branches.iter().enumerate() {
-        let from = branch.parent.map(|(parent, special)| {
-            let at = found.branches[parent].special[special].point.parameter;
-            format!(", left branch {} at {}", parent + 1, quantity(*along, at))
-        });
-        let from = from.or_else(|| match continuation.first {
-            FirstOrbit::Newton { period } if period != branch.period => {
-                Some(format!(", though {period} was asked for"))
-            }
-            _ => None,
-        });
         let number = match found.branches.len() {
             1 => String::new(),
             _ => format!(", branch {}", number + 1),
@@ -49,7 +38,7 @@ fn write_found(text: &mut String, continuation: &Continuation, found: &Found) {
             text,
             "\n{name}{number}: period {}{}",
             branch.period,
-            from.unwrap_or_default()
+            origin(continuation, found, branch)
         );
         write_branch(text, *along, branch);
     }
@@ -70,13 +59,26 @@ fn write_found(text: &mut String, continuation: &Continuation, found: &Found) {
     }
 }
 
+/// Where a branch left another, or that its period is not the one that was asked for.
+fn origin(continuation: &Continuation, found: &Found, branch: &Branch) -> String {
+    match (branch.parent, continuation.first) {
+        (Some((parent, special)), _) => {
+            let at = found.branches[parent].special[special].point.parameter;
+            format!(", left branch {} at {}", parent + 1, quantity(continuation.along, at))
+        }
+        (None, FirstOrbit::Newton { period }) if period != branch.period => {
+            format!(", though {period} was asked for")
+        }
+        _ => String::new(),
+    }
+}
+
 /// How many special points of which kind no curve goes through.
 fn write_without_curve(text: &mut String, found: &Found) {
-    let specials = || found.branches.iter().flat_map(|branch| &branch.special);
     let counts = SpecialKind::NAMES.iter().filter_map(|(name, kind)| {
-        let ours = |it: &&Special| it.kind == *kind && it.curve.is_none();
+        let specials = found.branches.iter().flat_map(|branch| &branch.special);
+        let count = specials.filter(|it| it.kind == *kind && it.curve.is_none()).count();
         let never = if is_followed(*kind) { "" } else { " (never continued)" };
-        let count = specials().filter(ours).count();
         (count > 0).then(|| format!("{count} {name}{never}"))
     });
     let counts: Vec<String> = counts.collect();
@@ -86,9 +88,9 @@ fn write_without_curve(text: &mut String, found: &Found) {
 }
 
 fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
-    let is_stable = |it: &&Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
-    let stable = branch.points.iter().filter(is_stable).count();
     let points = branch.points.len();
+    let stable = branch.points.iter().filter(|it| it.multipliers.iter().all(|m| m.abs() < 1.0));
+    let stable = stable.count();
     let _ = writeln!(
         text,
         "  {points} points, {stable} stable, {} unstable, {}",
@@ -204,6 +206,7 @@ mod tests {
     use crate::capsule;
     use crate::capsule::description::CAPSULE;
     use crate::description::Outputs;
+    use crate::motion::branch::Point;
     use crate::orbit::matrix::Complex;
     use crate::run::NotContinued;
 

@@ -83,14 +83,14 @@ impl Compare {
         }
         let recording = files::motion(&self.recording)?;
         let (case, protocol) = case_of(&self.study, self.case)?;
-        let name = printable(&self.recording);
-        let told = |why: String| Failure::request(format!("{name}: {why}"));
-        let comparison = compare(&recording, &case, &protocol).map_err(told)?;
+        let comparison = compare(&recording, &case, &protocol)
+            .map_err(|why| Failure::of_file(&self.recording, why))?;
         let effort =
             Effort { loss: Loss::Squares, weights: Weights::Spread, starts: 8, threads: threads() };
-        let free = |all: &Vec<Varied>| all.iter().map(|it| it.free).collect();
-        let free: Vec<Vec<Free>> = choices.iter().map(free).collect();
-        let explanations = explain(&comparison, &free, &effort).map_err(told)?;
+        let free: Vec<Vec<Free>> =
+            choices.iter().map(|all| all.iter().map(|it| it.free).collect()).collect();
+        let explanations = explain(&comparison, &free, &effort)
+            .map_err(|why| Failure::of_file(&self.recording, why))?;
         let mut paths = Vec::new();
         if let Some(output) = &self.output {
             paths = self.draw(&comparison, output)?;

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::identify::shown;
+use super::identify_report::shown;
 use super::varied::Varied;
 use crate::capsule::{self, CapsuleParameters as _, Parameter};
 use crate::experiment::comparison::Drive;
@@ -50,39 +50,41 @@ pub fn told_of(it: &Comparison) -> String {
 
 /// The recorded drive beside that of the study, with what may be wrong.
 fn told_of_drive(it: &Comparison, drive: &Drive) -> String {
-    let of = |parameter: Parameter| it.motion.parameters[parameter];
+    let [omega_of_study, p_d] =
+        [Parameter::Omega, Parameter::Pd].map(|parameter| it.motion.parameters[parameter]);
     let harmonic = &drive.harmonic;
     let [omega, phase, amplitude] = [harmonic.omega, harmonic.phase, harmonic.amplitude]
         .map(|it| shown(it.value, it.standard_error));
     let mut text = format!(
-        "drive:        {omega} rad/s as recorded, {} rad/s in the study; phase {phase} rad at the first sample\n",
-        of(Parameter::Omega),
+        "drive:        {omega} rad/s as recorded, {omega_of_study} rad/s in the study; phase {phase} rad at the first sample\n"
     );
     if drive.is_force {
         text += &format!(
-            "              amplitude {amplitude} N as recorded (standard error {}), p_d = {} N in the study\n",
-            shown(harmonic.amplitude.standard_error, harmonic.amplitude.standard_error),
-            of(Parameter::Pd)
+            "              amplitude {amplitude} N as recorded (standard error {}), p_d = {p_d} N in the study\n",
+            shown(harmonic.amplitude.standard_error, harmonic.amplitude.standard_error)
         );
     }
-    let mut warn = |fault: String| text += &format!("              warning: {fault}\n");
     let span = it.times[it.times.len() - 1];
-    if harmonic.beside(of(Parameter::Omega), span) != Frequencies::Same {
-        warn(
-            "the frequencies differ, so that recording and study are not the same case".to_owned(),
-        );
+    if harmonic.beside(omega_of_study, span) != Frequencies::Same {
+        text +=
+            &warning("the frequencies differ, so that recording and study are not the same case");
     }
-    if drive.differs_from(of(Parameter::Pd)) {
-        let change = 100.0 * (harmonic.amplitude.value / of(Parameter::Pd) - 1.0);
-        warn(format!(
+    if drive.differs_from(p_d) {
+        let change = 100.0 * (harmonic.amplitude.value / p_d - 1.0);
+        text += &warning(&format!(
             "the amplitudes differ by {change:+.1} %, so that recording and study are not the same case; set p_d = \"{amplitude} N\" \
              or check the scale of the drive"
         ));
     }
     if drive.may_be_inverted {
-        warn("the drive may have the other sign: with it the signals agree far better".to_owned());
+        text += &warning("the drive may have the other sign: with it the signals agree far better");
     }
     text
+}
+
+/// A warning in a line of its own, below what it is about.
+fn warning(fault: &str) -> String {
+    format!("              warning: {fault}\n")
 }
 
 /// The recorded and the simulated speed, with their standard errors.
@@ -164,14 +166,12 @@ fn told_of_difference(it: &Difference) -> String {
     }
     text += "\n";
     match it.doubt {
-        Some(Doubt::Sign) => {
-            text += &format!("              warning: {name} may have the other sign\n")
-        }
+        Some(Doubt::Sign) => text += &warning(&format!("{name} may have the other sign")),
         Some(Doubt::Unit(ratio)) => {
-            text += &format!(
-                "              warning: {name} varies {} times as much as simulated; its unit in the header may be wrong\n",
+            text += &warning(&format!(
+                "{name} varies {} times as much as simulated; its unit in the header may be wrong",
                 significant(ratio, 3)
-            );
+            ));
         }
         None => {}
     }
@@ -219,15 +219,6 @@ pub fn explained(comparison: &Comparison, it: &Explanation, varied: &[Varied]) -
 
 /// The comparison as JSON.
 pub fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Value {
-    let difference = |it: &Difference| {
-        json!({
-            "signal": it.signal.name(),
-            "error": it.errors.map(|it| it.all),
-            "shape_error": it.errors.map(|it| it.shape),
-            "may_have_other_sign": it.doubt == Some(Doubt::Sign),
-            "may_have_other_unit": matches!(it.doubt, Some(Doubt::Unit(_))),
-        })
-    };
     let drive = it.drive.as_ref();
     let force = drive.filter(|it| it.is_force).map(|it| it.harmonic.amplitude);
     json!({
@@ -252,6 +243,16 @@ pub fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Val
         "impacts_per_cycle_recorded": it.recorded_impacts,
         "errors": it.differences.iter().map(difference).collect::<Vec<_>>(),
         "explanations": explanations.iter().map(explanation).collect::<Vec<_>>(),
+    })
+}
+
+fn difference(it: &Difference) -> serde_json::Value {
+    json!({
+        "signal": it.signal.name(),
+        "error": it.errors.map(|it| it.all),
+        "shape_error": it.errors.map(|it| it.shape),
+        "may_have_other_sign": it.doubt == Some(Doubt::Sign),
+        "may_have_other_unit": matches!(it.doubt, Some(Doubt::Unit(_))),
     })
 }
 

@@ -16,7 +16,7 @@ use crate::campaign::{
 use crate::figure::Place;
 use crate::quantity::printable::printable;
 use crate::run::{Machine, NotContinued};
-use crate::store::{self, add_branches, folder};
+use crate::store::{self, Archive, add_branches, folder};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -65,35 +65,39 @@ impl Continue {
         let campaign = Campaign { study: &study, output: &output, machine, overwrite };
         let formats = formats(&self.formats);
         let place = Place { folder: folder(&output), formats: &formats, overwrite };
-        let watch = Watch::new(&self.study, &study);
+        let archive = self.continued(&campaign, &place)?;
+        if !self.no_figures {
+            draw_from(&archive, &study, &place)?;
+        }
+        Ok(())
+    }
+
+    /// The file with the branches, which are continued unless they are there.
+    fn continued(&self, campaign: &Campaign<'_>, place: &Place<'_>) -> Result<Archive, Failure> {
+        let Campaign { study, output, .. } = *campaign;
+        let watch = Watch::new(&self.study, study);
         let done = campaign.continue_branches(&|event| match event {
             Event::Before { .. } => {
-                let shown = printable(&output);
+                let shown = printable(output);
                 notify(&format!(
                     "{shown}: branches are there already, by this program from this study"
                 ));
                 ControlFlow::Continue(())
             }
-            Event::Accepted(older) => watch.heed(self.rehearse(&campaign, older, &place)),
+            Event::Accepted(older) => watch.heed(self.rehearse(campaign, older, place)),
             other => watch.hear(other),
         });
-        let archive = match done {
-            Err(error @ CampaignError::OtherBranches { .. }) => {
-                let advice = "--overwrite continues the branches again and keeps the cases";
-                return Err(Failure::request(format!("{error}; {advice}")));
-            }
-            done => match watch.end(done)? {
-                BranchesDone::Before(file) => file.archive,
-                BranchesDone::Now { continued, time } => {
-                    print(&summary(&study, &continued, &output, time.as_secs_f64()))?;
-                    store::open(&output).map_err(Failure::machine)?
-                }
-            },
-        };
-        if !self.no_figures {
-            draw_from(&archive, &study, &place)?;
+        if let Err(error @ CampaignError::OtherBranches { .. }) = done {
+            let advice = "--overwrite continues the branches again and keeps the cases";
+            return Err(Failure::request(format!("{error}; {advice}")));
         }
-        Ok(())
+        match watch.end(done)? {
+            BranchesDone::Before(file) => Ok(file.archive),
+            BranchesDone::Now { continued, time } => {
+                print(&summary(study, &continued, output, time.as_secs_f64()))?;
+                store::open(output).map_err(Failure::machine)
+            }
+        }
     }
 
     /// Draws the figures as if no branch could be continued.

@@ -23,15 +23,20 @@ pub enum FormatChoice {
     Pdf,
 }
 
+impl From<FormatChoice> for Format {
+    fn from(choice: FormatChoice) -> Format {
+        match choice {
+            FormatChoice::Png => Format::Png,
+            FormatChoice::Svg => Format::Svg,
+            FormatChoice::Pdf => Format::Pdf,
+        }
+    }
+}
+
 /// The formats chosen, each once.
 pub fn formats(choices: &[FormatChoice]) -> Vec<Format> {
-    let format = |choice: &FormatChoice| match choice {
-        FormatChoice::Png => Format::Png,
-        FormatChoice::Svg => Format::Svg,
-        FormatChoice::Pdf => Format::Pdf,
-    };
     let mut formats: Vec<Format> = Vec::new();
-    for format in choices.iter().map(format) {
+    for format in choices.iter().copied().map(Format::from) {
         if !formats.contains(&format) {
             formats.push(format);
         }
@@ -41,13 +46,14 @@ pub fn formats(choices: &[FormatChoice]) -> Vec<Format> {
 
 /// Draws those figures of a study for which there is all that they show.
 pub fn draw_from(archive: &Archive, study: &Study, place: &Place<'_>) -> Result<(), Failure> {
-    draw_each(archive, (&ready(archive.into(), study), None), place)
+    draw_each(archive, &ready(archive.into(), study), None, place)
 }
 
 /// Draws figures, each from no more of the results than it shows, with measured points if there are any.
 pub fn draw_each(
     archive: &Archive,
-    (drawings, measured): (&[Drawing], Option<&Measured>),
+    drawings: &[Drawing],
+    measured: Option<&Measured>,
     place: &Place<'_>,
 ) -> Result<(), Failure> {
     let mut failures = Vec::new();
@@ -83,8 +89,8 @@ fn refined(archive: &Archive) -> Result<Vec<KeptFront>, Failure> {
 /// Draws the figures from results without a single value, so that a mistake in one of them is
 /// reported before a long run and not after it.
 pub fn rehearse(empty: &Dataset, study: &Study, place: &Place<'_>) -> Result<(), Failure> {
-    let is_ready = |it: &&Drawing| waits_for(it, study, empty.into()).is_none();
-    let ready: Vec<Drawing> = study.drawings.iter().filter(is_ready).cloned().collect();
+    let mut ready = study.drawings.clone();
+    ready.retain(|it| waits_for(it, study, empty.into()).is_none());
     for drawing in &ready {
         place.check(&drawing.name, drawing.data).map_err(failure)?;
     }
@@ -147,14 +153,16 @@ impl From<&Archive> for Holds {
 /// The figures of a study for which there is all that they show; the others are reported with what
 /// they wait for.
 fn ready(holds: Holds, study: &Study) -> Vec<Drawing> {
-    let is_ready = |drawing: &&Drawing| match waits_for(drawing, study, holds) {
-        None => true,
-        Some(command) => {
-            notify(&format!("figure `{}`: waits for `capsulemap {command}`", drawing.name));
-            false
+    let mut ready = Vec::new();
+    for drawing in &study.drawings {
+        match waits_for(drawing, study, holds) {
+            None => ready.push(drawing.clone()),
+            Some(command) => {
+                notify(&format!("figure `{}`: waits for `capsulemap {command}`", drawing.name));
+            }
         }
-    };
-    study.drawings.iter().filter(is_ready).cloned().collect()
+    }
+    ready
 }
 
 /// The command that finds what a figure shows and is not there.

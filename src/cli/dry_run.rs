@@ -88,10 +88,10 @@ fn size_or_not(bytes: f64) -> String {
 /// The most memory that a figure of the study takes, which holds the variables that it shows [bytes]; none if it has no figure.
 fn figures(study: &Study) -> Option<f64> {
     let of_case = store::numbers_of_case(study);
-    let numbers = |name: &str| of_case.get(name).copied().unwrap_or(0) as f64;
     let bytes = study.drawings.iter().map(|drawing| {
         let shown = variables(drawing, study.base.model());
-        shown.iter().map(|name| numbers(name)).sum::<f64>() * study.cases() as f64 * 8.0
+        let numbers = shown.iter().map(|name| of_case.get(name).copied().unwrap_or(0) as f64);
+        numbers.sum::<f64>() * study.cases() as f64 * 8.0
     });
     bytes.max_by(f64::total_cmp).map(|bytes| bytes + DRAWING)
 }

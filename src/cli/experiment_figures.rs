@@ -5,7 +5,9 @@ use crate::experiment::friction::coast_down;
 use crate::experiment::identification::Evidence;
 use crate::experiment::line::Line;
 use crate::experiment::recording::GAP;
-use crate::experiment::{Coasting, Comparison, Given, Recording, Signal, Test, Verdict};
+use crate::experiment::{
+    Coasting, Comparison, Difference, FreeVibration, Given, Recording, Signal, Test, Verdict,
+};
 use crate::figure::plot::{Look, Plot, PlotPanel, Series};
 use crate::quantity::Dimension;
 
@@ -44,57 +46,20 @@ pub fn evidence_plot(
     given: &Given,
 ) -> Option<Plot> {
     match evidence {
-        Evidence::Decay(decay) => {
-            let (t, r) = (recording.required("t"), recording.required("r"));
-            let model: Vec<f64> = t.iter().map(|time| decay.decay(given.m1, *time)).collect();
-            let from = t.partition_point(|time| *time < decay.begins);
-            let left: Vec<f64> = r.iter().zip(&model).map(|(r, model)| r - model).collect();
-            let fitted = scaled(&t[from..], &model[from..], [1.0, 1e3]);
-            let about = "free vibration: relative displacement as recorded, the fitted decay, and their difference";
-            Some(plot(
-                test,
-                about,
-                vec![
-                    panel(
-                        "Time (s)",
-                        "Relative displacement $r$ (mm)",
-                        vec![
-                            series("recorded", Look::Measured, scaled(t, r, [1.0, 1e3])),
-                            series("fitted decay", Look::Model, fitted),
-                        ],
-                    ),
-                    panel(
-                        "Time (s)",
-                        "Recorded less fitted (mm)",
-                        vec![
-                            series(
-                                "",
-                                Look::Measured,
-                                scaled(&t[from..], &left[from..], [1.0, 1e3]),
-                            ),
-                            series(
-                                "",
-                                Look::Reference,
-                                vec![(t[from], 0.0), (t[t.len() - 1], 0.0)],
-                            ),
-                        ],
-                    ),
-                ],
-            ))
-        }
+        Evidence::Decay(decay) => Some(decay_plot(test, recording, decay, given)),
         Evidence::Line(line) if test == Test::StaticForce => {
-            let (force, deflection) =
-                (recording.required("force"), recording.required("deflection"));
-            Some(line_plot(
-                test,
-                line,
-                (force, 1.0, "Load (N)"),
-                (deflection, 1e3, "Deflection", "mm"),
-            ))
+            let load =
+                Drawn { values: recording.required("force"), factor: 1.0, name: "Load", unit: "N" };
+            let values = recording.required("deflection");
+            let deflection = Drawn { values, factor: 1e3, name: "Deflection", unit: "mm" };
+            Some(line_plot(test, line, &load, &deflection))
         }
         Evidence::Line(line) => {
-            let (current, force) = (recording.required("current"), recording.required("force"));
-            Some(line_plot(test, line, (current, 1.0, "Current (A)"), (force, 1.0, "Force", "N")))
+            let values = recording.required("current");
+            let current = Drawn { values, factor: 1.0, name: "Current", unit: "A" };
+            let values = recording.required("force");
+            let force = Drawn { values, factor: 1.0, name: "Force", unit: "N" };
+            Some(line_plot(test, line, &current, &force))
         }
         Evidence::Coasting(coasting) => {
             Some(coasting_plot(test, recording.required("v"), coasting))
@@ -103,40 +68,85 @@ pub fn evidence_plot(
     }
 }
 
-/// Points with their line, and what it leaves of them.
-fn line_plot(
-    test: Test,
-    line: &Line,
-    (x, x_factor, x_label): (&[f64], f64, &str),
-    (y, y_factor, y_name, y_unit): (&[f64], f64, &str, &str),
-) -> Plot {
-    let ends = [f64::min, f64::max].map(|end| x.iter().copied().reduce(end).unwrap_or(0.0));
-    let at = |x: f64| (x * x_factor, (line.intercept.value + line.slope.value * x) * y_factor);
-    let mut residuals = panel(
-        x_label,
-        &format!("{y_name} less line ({y_unit})"),
+/// The free vibration, with the fitted decay and what it leaves.
+fn decay_plot(test: Test, recording: &Recording, decay: &FreeVibration, given: &Given) -> Plot {
+    let (t, r) = (recording.required("t"), recording.required("r"));
+    let model: Vec<f64> = t.iter().map(|time| decay.decay(given.m1, *time)).collect();
+    let from = t.partition_point(|time| *time < decay.begins);
+    let left: Vec<f64> = r.iter().zip(&model).map(|(r, model)| r - model).collect();
+    let fitted = scaled(&t[from..], &model[from..], [1.0, 1e3]);
+    let left = scaled(&t[from..], &left[from..], [1.0, 1e3]);
+    let zero = vec![(t[from], 0.0), (t[t.len() - 1], 0.0)];
+    let about =
+        "free vibration: relative displacement as recorded, the fitted decay, and their difference";
+    plot(
+        test,
+        about,
         vec![
-            series("", Look::Measured, scaled(x, &line.residuals, [x_factor, y_factor])),
-            series("", Look::Reference, ends.map(|x| (x * x_factor, 0.0)).to_vec()),
+            panel(
+                "Time (s)",
+                "Relative displacement $r$ (mm)",
+                vec![
+                    series("recorded", Look::Measured, scaled(t, r, [1.0, 1e3])),
+                    series("fitted decay", Look::Model, fitted),
+                ],
+            ),
+            panel(
+                "Time (s)",
+                "Recorded less fitted (mm)",
+                vec![series("", Look::Measured, left), series("", Look::Reference, zero)],
+            ),
+        ],
+    )
+}
+
+/// A column of a recording as it is drawn.
+struct Drawn<'a> {
+    /// Its values (SI).
+    values: &'a [f64],
+    /// What they are multiplied by.
+    factor: f64,
+    /// What it is called.
+    name: &'static str,
+    /// The unit in which it is shown.
+    unit: &'static str,
+}
+
+impl Drawn<'_> {
+    fn label(&self) -> String {
+        format!("{} ({})", self.name, self.unit)
+    }
+}
+
+/// Points with their line, and what it leaves of them.
+fn line_plot(test: Test, line: &Line, x: &Drawn<'_>, y: &Drawn<'_>) -> Plot {
+    let factors = [x.factor, y.factor];
+    let ends = [f64::min, f64::max].map(|end| x.values.iter().copied().reduce(end).unwrap_or(0.0));
+    let on_line = ends
+        .map(|end| (end * x.factor, (line.intercept.value + line.slope.value * end) * y.factor));
+    let mut residuals = panel(
+        &x.label(),
+        &format!("{} less line ({})", y.name, y.unit),
+        vec![
+            series("", Look::Measured, scaled(x.values, &line.residuals, factors)),
+            series("", Look::Reference, ends.map(|end| (end * x.factor, 0.0)).to_vec()),
         ],
     );
     if line.curvature.is_some() {
         residuals.note = "curved: not one straight line".to_owned();
     }
+    let points = panel(
+        &x.label(),
+        &y.label(),
+        vec![
+            series("measured", Look::Measured, scaled(x.values, y.values, factors)),
+            series("line", Look::Model, on_line.to_vec()),
+        ],
+    );
     plot(
         test,
         "the points of the test with the fitted line, and what it leaves of them",
-        vec![
-            panel(
-                x_label,
-                &format!("{y_name} ({y_unit})"),
-                vec![
-                    series("measured", Look::Measured, scaled(x, y, [x_factor, y_factor])),
-                    series("line", Look::Model, ends.map(at).to_vec()),
-                ],
-            ),
-            residuals,
-        ],
+        vec![points, residuals],
     )
 }
 
@@ -144,13 +154,9 @@ fn line_plot(
 fn coasting_plot(test: Test, speeds: &[f64], coasting: &Coasting) -> Plot {
     let fastest = speeds.iter().copied().fold(0.0, f64::max);
     let (mu_d, v_s) = (coasting.by_coast_down.mu_d.value, coasting.by_coast_down.v_s.value);
-    let curve = |of: &dyn Fn(f64) -> f64| {
-        let at = |i: usize| 1.02 * fastest * i as f64 / SMOOTH as f64;
-        (0..=SMOOTH).map(|i| (at(i), of(at(i)))).collect::<Vec<_>>()
-    };
-    let law = curve(&|v| mu_d * (1.0 + (-v / v_s).exp()));
+    let law = curve(fastest, |v| mu_d * (1.0 + (-v / v_s).exp()));
     // Gravity cancels; at rest the prediction is the law itself.
-    let predicted = curve(&|v| match v > 0.0 {
+    let predicted = curve(fastest, |v| match v > 0.0 {
         true => v * v / (2.0 * coast_down(v, mu_d, v_s, 1.0).0),
         false => 2.0 * mu_d,
     });
@@ -175,6 +181,12 @@ fn coasting_plot(test: Test, speeds: &[f64], coasting: &Coasting) -> Plot {
     plot(test, about, vec![frame])
 }
 
+/// What a law gives from rest to a little beyond the fastest test.
+fn curve(fastest: f64, law: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+    let speeds = (0..=SMOOTH).map(|i| 1.02 * fastest * i as f64 / SMOOTH as f64);
+    speeds.map(|v| (v, law(v))).collect()
+}
+
 /// The points of a curve, broken at the gaps of the record.
 fn broken(points: Vec<(f64, f64)>, comparison: &Comparison) -> Vec<(f64, f64)> {
     let longest = GAP * comparison.sampling.interval;
@@ -195,41 +207,44 @@ pub fn comparison_plot(name: &str, comparison: &Comparison, about: &str, cycles:
     let span = cycles as f64 * comparison.motion.parameters.drive_period();
     let count = comparison.times.partition_point(|time| *time <= span);
     let is_cut = count < comparison.times.len();
-    let row = |it: &crate::experiment::Difference| {
-        let (factor, unit) = match it.signal.dimension() {
-            Dimension::Length => (1e3, "mm"),
-            Dimension::Velocity => (1e3, "mm/s"),
-            other => (1.0, other.unit()),
-        };
-        let symbol = match it.signal {
-            Signal::X1 => "$x_1$",
-            Signal::X2 => "$x_2$",
-            Signal::R => "$x_1 - x_2$",
-            Signal::Y1 => "$y_1$",
-            Signal::Y2 => "$y_2$",
-            Signal::A1 => "$a_1$",
-            Signal::Drive => "Drive",
-        };
-        let unit = unit.replace("m/s2", "m/s$^2$");
-        let of = |values: &[f64]| {
-            broken(scaled(&comparison.times[..count], &values[..count], [1.0, factor]), comparison)
-        };
-        let mut all = vec![
-            series("recorded", Look::Record, of(&it.recorded)),
-            series("simulated", Look::Simulated, of(&it.simulated)),
-        ];
-        if it.signal == Signal::R {
-            let delta = factor * comparison.motion.parameters[Parameter::Delta];
-            let ends = [comparison.times[0], comparison.times[count - 1]];
-            all.push(series("$\\delta$", Look::Reference, ends.map(|t| (t, delta)).to_vec()));
-        }
-        vec![panel("Time (s)", &format!("{symbol} ({unit})"), all)]
-    };
-    let mut rows: Vec<Vec<PlotPanel>> = comparison.differences.iter().map(row).collect();
+    let mut rows: Vec<Vec<PlotPanel>> =
+        comparison.differences.iter().map(|it| vec![signal_panel(it, comparison, count)]).collect();
     if is_cut && let Some(first) = rows.first_mut().and_then(|row| row.first_mut()) {
         let whole = comparison.cycles.round();
         let decimals = usize::from((comparison.cycles - whole).abs() >= 0.05);
         first.note = format!("{cycles} of {:.decimals$} cycles", comparison.cycles);
     }
     Plot { name: name.to_owned(), about: about.to_owned(), rows, height: 0.8 * HEIGHT }
+}
+
+/// A signal, recorded and simulated, over so many samples.
+fn signal_panel(it: &Difference, comparison: &Comparison, count: usize) -> PlotPanel {
+    let (factor, unit) = match it.signal.dimension() {
+        Dimension::Length => (1e3, "mm"),
+        Dimension::Velocity => (1e3, "mm/s"),
+        other => (1.0, other.unit()),
+    };
+    let symbol = match it.signal {
+        Signal::X1 => "$x_1$",
+        Signal::X2 => "$x_2$",
+        Signal::R => "$x_1 - x_2$",
+        Signal::Y1 => "$y_1$",
+        Signal::Y2 => "$y_2$",
+        Signal::A1 => "$a_1$",
+        Signal::Drive => "Drive",
+    };
+    let unit = unit.replace("m/s2", "m/s$^2$");
+    let times = &comparison.times[..count];
+    let [recorded, simulated] = [&it.recorded, &it.simulated]
+        .map(|values| broken(scaled(times, &values[..count], [1.0, factor]), comparison));
+    let mut all = vec![
+        series("recorded", Look::Record, recorded),
+        series("simulated", Look::Simulated, simulated),
+    ];
+    if it.signal == Signal::R {
+        let delta = factor * comparison.motion.parameters[Parameter::Delta];
+        let ends = [comparison.times[0], comparison.times[count - 1]];
+        all.push(series("$\\delta$", Look::Reference, ends.map(|t| (t, delta)).to_vec()));
+    }
+    panel("Time (s)", &format!("{symbol} ({unit})"), all)
 }

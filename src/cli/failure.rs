@@ -1,6 +1,7 @@
 //! Failures of a command, and their exit codes.
 
 use std::fmt;
+use std::path::Path;
 use std::process::ExitCode;
 
 use super::readable::blocks_kept;
@@ -19,6 +20,11 @@ impl Failure {
     /// A mistake in what was asked: exit code 2.
     pub fn request(message: impl fmt::Display) -> Self {
         Failure { message: message.to_string(), code: 2 }
+    }
+
+    /// A mistake in a file that was given.
+    pub fn of_file(path: &Path, fault: impl fmt::Display) -> Self {
+        Failure::request(format!("{}: {fault}", printable(path)))
     }
 
     /// Several mistakes in one message.
@@ -58,8 +64,9 @@ impl fmt::Display for Failure {
 impl From<CampaignError> for Failure {
     fn from(error: CampaignError) -> Self {
         if let CampaignError::TradeOff { path, faults } = error {
-            let within = |fault: &String| format!("{}: {fault}", printable(&path));
-            return Failure::requests(&faults.iter().map(within).collect::<Vec<_>>());
+            let path = printable(&path);
+            let faults: Vec<String> = faults.iter().map(|it| format!("{path}: {it}")).collect();
+            return Failure::requests(&faults);
         }
         let message = format!("{error}{}", advice(&error));
         match error.cause() {

@@ -105,7 +105,7 @@ impl Figure {
                 let measured = self.points.as_deref().map(|path| measured(path, &archive));
                 let measured = measured.transpose()?;
                 let drawing = self.drawing(kind, &archive)?;
-                draw_each(&archive, (&[drawing], measured.as_ref()), &place)
+                draw_each(&archive, &[drawing], measured.as_ref(), &place)
             }
             None => draw_from(&archive, &studied(&archive, &self.file)?, &place),
         }
@@ -194,11 +194,37 @@ impl Figure {
 
     /// Where axes are held, and those that are held at several values.
     fn held(&self, kind: DrawingKind, dataset: &Dataset) -> Result<Held, Failure> {
+        let mut faults = Vec::new();
+        let held = self.values_at(dataset, &mut faults);
+        // Panels lie along the axes in the order of the study.
+        let panels = dataset.coordinates.iter().filter_map(|(name, _)| {
+            let values = held.get(name).filter(|values| values.len() > 1)?;
+            Some((name.clone(), values.clone()))
+        });
+        let panels: Vec<(String, Vec<f64>)> = panels.collect();
+        if !kind.keys().panels {
+            let kinds = DrawingKind::with_panels();
+            faults.extend(panels.iter().map(|it| {
+                let (name, count, kind) = (&it.0, it.1.len(), kind.name());
+                format!(
+                    "--at {name}: has {count} values; a {kind} takes one, several are for {kinds}"
+                )
+            }));
+        }
+        if !panels.is_empty() {
+            faults.extend(check_panels(&panels).err().map(|fault| format!("--at: {fault}")));
+        }
+        let at = held.into_iter().filter(|(_, values)| values.len() == 1);
+        let at = at.map(|(name, values)| (name, values[0])).collect();
+        if faults.is_empty() { Ok((at, panels)) } else { Err(Failure::requests(&faults)) }
+    }
+
+    /// The values that axes of the results are given, by their names; faults are noted.
+    fn values_at(&self, dataset: &Dataset, faults: &mut Vec<String>) -> BTreeMap<String, Vec<f64>> {
         let axes: Vec<Coordinate> = Coordinate::all(dataset.model())
             .filter(|axis| dataset.coordinate(axis.name()).is_some())
             .collect();
         let mut held: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-        let mut faults = Vec::new();
         for text in &self.at {
             let Some((name, value)) = text.split_once('=') else {
                 faults.push(format!("--at {text}: expected AXIS=VALUE"));
@@ -217,28 +243,7 @@ impl Figure {
                 }
             }
         }
-        let several = |name: &str| held.get(name).filter(|values| values.len() > 1);
-        // Panels lie along the axes in the order of the study.
-        let panels: Vec<(String, Vec<f64>)> = dataset
-            .coordinates
-            .iter()
-            .filter_map(|(name, _)| Some((name.clone(), several(name)?.clone())))
-            .collect();
-        if !kind.keys().panels {
-            let kinds = DrawingKind::with_panels();
-            faults.extend(panels.iter().map(|it| {
-                let (name, count, kind) = (&it.0, it.1.len(), kind.name());
-                format!(
-                    "--at {name}: has {count} values; a {kind} takes one, several are for {kinds}"
-                )
-            }));
-        }
-        if !panels.is_empty() {
-            faults.extend(check_panels(&panels).err().map(|fault| format!("--at: {fault}")));
-        }
-        let at = held.into_iter().filter(|(_, values)| values.len() == 1);
-        let at = at.map(|(name, values)| (name, values[0])).collect();
-        if faults.is_empty() { Ok((at, panels)) } else { Err(Failure::requests(&faults)) }
+        held
     }
 }
 
@@ -246,24 +251,25 @@ impl Figure {
 fn measured(path: &Path, archive: &Archive) -> Result<Measured, Failure> {
     let axes = archive.frame().coordinates.iter().map(|it| it.0.as_str());
     let names = axes.chain(archive.variables().map(|it| it.0));
-    let column = |name: &str| {
+    let known = names.filter_map(|name| {
         let name = catalogue::named(name, archive.frame().model())?.name;
         let dimension = dimension(archive, name).ok()?;
         Some(Column { name, dimension, presence: Presence::Optional })
-    };
-    let known: Vec<Column> = names.filter_map(column).collect();
+    });
+    let known: Vec<Column> = known.collect();
     let recording = files::recording(path, &known, 1)?;
-    let of = |it: &Column| Some((it.name.to_owned(), recording.column(it.name)?.to_vec()));
-    Ok(Measured { columns: known.iter().filter_map(of).collect() })
+    let columns = known.iter();
+    let columns =
+        columns.filter_map(|it| Some((it.name.to_owned(), recording.column(it.name)?.to_vec())));
+    Ok(Measured { columns: columns.collect() })
 }
 
 /// The dimension of a quantity of figures, or of a variable of the file.
 fn dimension(archive: &Archive, name: &str) -> Result<Dimension, String> {
-    let of_variable = || {
-        let unit = archive.unit(name)?;
-        Some(Dimension::ALL.into_iter().find(|it| it.unit() == unit).unwrap_or(Dimension::Number))
-    };
-    dimension_of(name, archive.frame().model()).or_else(|fault| of_variable().ok_or(fault))
+    dimension_of(name, archive.frame().model()).or_else(|fault| {
+        let unit = archive.unit(name).ok_or(fault)?;
+        Ok(Dimension::ALL.into_iter().find(|it| it.unit() == unit).unwrap_or(Dimension::Number))
+    })
 }
 
 /// The study in the file, which asks for figures.

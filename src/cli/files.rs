@@ -43,12 +43,15 @@ pub fn recording_in(
 
 /// The recording of a motion: times, and any of the signals.
 pub fn motion(path: &Path) -> Result<Recording, Failure> {
-    let optional = |name, dimension| Column { name, dimension, presence: Presence::Optional };
     let times = Column { presence: Presence::Required, ..optional("t", Dimension::Time) };
     let signals = Signal::ALL.map(|it| optional(it.name(), it.dimension()));
     let current = optional("current", Dimension::Current);
     let known: Vec<Column> = [times, current].into_iter().chain(signals).collect();
     recording(path, &known, LEAST_ROWS)
+}
+
+fn optional(name: &'static str, dimension: Dimension) -> Column {
+    Column { name, dimension, presence: Presence::Optional }
 }
 
 /// Whether standard output is asked for in place of a file.
@@ -81,8 +84,7 @@ pub fn put(path: &Path, text: &str) -> Result<(), Failure> {
 
 /// A quantity that an option was given, with its unit; a plain number where it has none.
 pub fn quantity(option: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
-    let told = |fault: String| format!("{option}: {fault}");
-    let value = parse_quantity(text, dimension).map_err(told)?;
+    let value = parse_quantity(text, dimension).map_err(|fault| format!("{option}: {fault}"))?;
     match value.is_finite() {
         true => Ok(value),
         false => Err(format!("{option}: {text} is not a finite number")),

@@ -1,13 +1,13 @@
 //! `capsulemap fit`: parameters from recorded histories of the motion.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::failure::Failure;
 use super::files;
 use super::fit_report::{as_json, table, warnings as warnings_of};
-use super::identify::shown;
+use super::identify_report::shown;
 use super::synthesize::case_of;
 use super::terminal::print;
 use super::varied::{Varied, threads, varied};
@@ -19,7 +19,7 @@ use crate::experiment::least_squares::Loss;
 use crate::experiment::simulated_span::check_span;
 use crate::experiment::{
     Constant, Effort, Free, Frequencies, Harmonic, Identified, MotionFit, Recorded, Recording,
-    Weights, fit_motion, harmonic,
+    Sampling, Weights, fit_motion, harmonic,
 };
 use crate::quantity::printable::printable;
 
@@ -78,22 +78,8 @@ pub struct Fit {
 impl Fit {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let mut faults = Vec::new();
-        let varied: Vec<Varied> =
-            self.vary.iter().flat_map(|text| varied("--vary", text, &mut faults)).collect();
+        let varied = self.varied()?;
         let free: Vec<Free> = varied.iter().map(|it| it.free).collect();
-        for (i, it) in free.iter().enumerate() {
-            if free[..i].iter().any(|other| other.parameter == it.parameter) {
-                faults.push(format!("--vary: {} is given twice", it.parameter.symbol()));
-            }
-        }
-        if ![1, self.recordings.len()].contains(&self.study.len()) {
-            let (studies, recordings) = (self.study.len(), self.recordings.len());
-            faults.push(format!("--study: {studies} studies for {recordings} recordings; expected one, or one for each"));
-        }
-        if !faults.is_empty() {
-            return Err(Failure::requests(&faults));
-        }
         if let Some(output) = &self.output {
             files::check_free(output, self.overwrite)?;
         }
@@ -125,48 +111,51 @@ impl Fit {
         print(&text)
     }
 
+    /// The parameters to fit, each once, where there are as many studies as the recordings need.
+    fn varied(&self) -> Result<Vec<Varied>, Failure> {
+        let mut faults = Vec::new();
+        let varied: Vec<Varied> =
+            self.vary.iter().flat_map(|text| varied("--vary", text, &mut faults)).collect();
+        for (i, Varied { free, .. }) in varied.iter().enumerate() {
+            if varied[..i].iter().any(|other| other.free.parameter == free.parameter) {
+                faults.push(format!("--vary: {} is given twice", free.parameter.symbol()));
+            }
+        }
+        if ![1, self.recordings.len()].contains(&self.study.len()) {
+            let (studies, recordings) = (self.study.len(), self.recordings.len());
+            faults.push(format!("--study: {studies} studies for {recordings} recordings; expected one, or one for each"));
+        }
+        if faults.is_empty() { Ok(varied) } else { Err(Failure::requests(&faults)) }
+    }
+
     /// A recording as the fit takes it, and warnings of its gaps and of its frequency.
     fn recorded(&self, index: usize) -> Result<(Recorded, Vec<String>), Failure> {
         let path = &self.recordings[index];
-        let told = |why: String| Failure::request(format!("{}: {why}", printable(path)));
         let recording = files::motion(path)?;
         let (case, _) = case_of(&self.study[index.min(self.study.len() - 1)], 0)?;
-        let (times, signals) = signals_of(&recording).map_err(told)?;
+        let (times, signals) = signals_of(&recording).map_err(|why| Failure::of_file(path, why))?;
         let period = case.parameters.drive_period();
         let sampling = recording.sampling();
-        check_span(&times, &sampling, period).map_err(told)?;
-        varies(&signals).map_err(told)?;
+        check_span(&times, &sampling, period).map_err(|why| Failure::of_file(path, why))?;
+        varies(&signals).map_err(|why| Failure::of_file(path, why))?;
         let drive = drive(&recording).ok_or_else(|| {
-            told(
-                "has neither a column drive [N] nor current [A], which give the phase of the drive"
-                    .to_owned(),
-            )
+            let why =
+                "has neither a column drive [N] nor current [A], which give the phase of the drive";
+            Failure::of_file(path, why)
         })?;
-        let drive = harmonic(&times, drive).map_err(told)?;
+        let drive = harmonic(&times, drive).map_err(|why| Failure::of_file(path, why))?;
         let span = self.cycles as f64 * period;
         let omega = case.parameters[Parameter::Omega];
-        let fault = frequencies(&drive, omega);
-        let mut warnings = Vec::new();
-        if !sampling.gaps.is_empty() {
-            warnings.push(format!(
-                "{}: {sampling}; where the clock was set there, the drive changes its phase: cut the file there and take the parts by \
-                 themselves",
-                printable(path)
-            ));
-        }
-        match drive.beside(omega, span) {
-            Frequencies::Same => {}
-            Frequencies::Apart => warnings.push(format!("{}: {fault}", printable(path))),
-            Frequencies::Differ => return Err(told(fault)),
-        }
+        let warnings = warnings_of_record(path, &sampling, &drive, omega, span)?;
         let count = times.partition_point(|time| *time <= span);
-        let cut = |values: Vec<f64>| values[..count].to_vec();
+        let signals =
+            signals.into_iter().map(|(signal, values)| (signal, values[..count].to_vec()));
         let recorded = Recorded {
             parameters: case.parameters,
             times: times[..count].to_vec(),
             phase: drive.phase.value,
             phase_error: drive.phase.standard_error,
-            signals: signals.into_iter().map(|(signal, values)| (signal, cut(values))).collect(),
+            signals: signals.collect(),
         };
         Ok((recorded, warnings))
     }
@@ -177,7 +166,7 @@ impl Fit {
 
     fn identified(&self, fit: &MotionFit) -> Vec<Identified> {
         let names = self.names();
-        let one = |it: &crate::experiment::Fitted| Identified {
+        let identified = fit.fitted.iter().map(|it| Identified {
             constant: Constant::Parameter(it.parameter),
             estimate: it.estimate,
             verdict: it.verdict,
@@ -185,13 +174,40 @@ impl Fit {
             source: names.join(", "),
             other: None,
             notes: Vec::new(),
-        };
-        fit.fitted.iter().map(one).collect()
+        });
+        identified.collect()
     }
 }
 
 fn drive(recording: &Recording) -> Option<&[f64]> {
     recording.column("drive").or(recording.column("current"))
+}
+
+/// Warnings of the gaps of a record, and of a frequency that is not surely that of the study, `omega`, over this span.
+///
+/// Fails where the frequencies differ.
+fn warnings_of_record(
+    path: &Path,
+    sampling: &Sampling,
+    drive: &Harmonic,
+    omega: f64,
+    span: f64,
+) -> Result<Vec<String>, Failure> {
+    let mut warnings = Vec::new();
+    if !sampling.gaps.is_empty() {
+        warnings.push(format!(
+            "{}: {sampling}; where the clock was set there, the drive changes its phase: cut the file there and take the parts by \
+             themselves",
+            printable(path)
+        ));
+    }
+    let fault = frequencies(drive, omega);
+    match drive.beside(omega, span) {
+        Frequencies::Same => {}
+        Frequencies::Apart => warnings.push(format!("{}: {fault}", printable(path))),
+        Frequencies::Differ => return Err(Failure::of_file(path, fault)),
+    }
+    Ok(warnings)
 }
 
 /// That the recorded frequency is not that of the study.

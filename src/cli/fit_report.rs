@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::identify::shown;
+use super::identify_report::shown;
 use super::varied::Varied;
 use crate::capsule::{CapsuleParameters as _, Parameter};
 use crate::experiment::{Drift, Fitted, MotionFit, Verdict};
@@ -141,15 +141,14 @@ fn told_of_misfit(fit: &MotionFit, is_robust: bool) -> String {
 fn strongest(fit: &MotionFit) -> Option<(Parameter, Parameter, f64)> {
     let count = fit.fitted.len();
     let pairs = (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
-    let of = |(i, j): (usize, usize)| {
-        (fit.fitted[j].parameter, fit.fitted[i].parameter, fit.correlations[i][j])
-    };
-    pairs.map(of).filter(|it| it.2.is_finite()).max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()))
+    let correlations = pairs
+        .map(|(i, j)| (fit.fitted[j].parameter, fit.fitted[i].parameter, fit.correlations[i][j]));
+    correlations.filter(|it| it.2.is_finite()).max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()))
 }
 
 /// The fit as JSON.
 pub fn as_json(fit: &MotionFit, names: &[String], warnings: &[String]) -> serde_json::Value {
-    let one = |(it, profile): (&Fitted, &Vec<[f64; 2]>)| {
+    let fitted = fit.fitted.iter().zip(&fit.profiles).map(|(it, profile)| {
         json!({
             "name": it.parameter.symbol(),
             "unit": it.parameter.dimension().unit(),
@@ -160,8 +159,8 @@ pub fn as_json(fit: &MotionFit, names: &[String], warnings: &[String]) -> serde_
             "on_bound": it.bound.map(|it| it.name()),
             "profile": profile,
         })
-    };
-    let drift = |it: &Drift| {
+    });
+    let drifts = fit.drifts.iter().map(|it| {
         json!({
             "recording": names[it.recording],
             "signal": it.signal.name(),
@@ -169,10 +168,10 @@ pub fn as_json(fit: &MotionFit, names: &[String], warnings: &[String]) -> serde_
             "rate": it.rate,
             "standard_error": it.standard_error,
         })
-    };
+    });
     let combined = fit.combined.iter().map(|it| it.symbol());
     json!({
-        "fitted": fit.fitted.iter().zip(&fit.profiles).map(one).collect::<Vec<_>>(),
+        "fitted": fitted.collect::<Vec<_>>(),
         "combined": combined.collect::<Vec<_>>(),
         "correlations": fit.correlations,
         "covariance": fit.covariance,
@@ -183,7 +182,7 @@ pub fn as_json(fit: &MotionFit, names: &[String], warnings: &[String]) -> serde_
         "starts_here": fit.starts[0],
         "starts": fit.starts[1],
         "rests_at_first_sample": fit.rests,
-        "drifts": fit.drifts.iter().map(drift).collect::<Vec<_>>(),
+        "drifts": drifts.collect::<Vec<_>>(),
         "notes": notes(fit, names),
         "warnings": warnings,
     })

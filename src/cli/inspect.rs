@@ -59,21 +59,10 @@ fn range(values: &Values) -> (Option<[f64; 2]>, usize) {
 }
 
 fn describe(dataset: &Dataset) -> Value {
-    let one = |variable: &Variable| {
-        let (range, missing) = range(&variable.values);
-        json!({
-            "dimensions": variable.dimensions,
-            "shape": variable.values.shape(),
-            "unit": variable.unit,
-            "long_name": variable.long_name,
-            "range": range,
-            "missing": missing,
-        })
-    };
     let coordinates: Map<String, Value> =
-        dataset.coordinates.iter().map(|(name, v)| (name.clone(), one(v))).collect();
+        dataset.coordinates.iter().map(|(name, it)| (name.clone(), described(it))).collect();
     let variables: Map<String, Value> =
-        dataset.variables.iter().map(|(name, v)| (name.clone(), one(v))).collect();
+        dataset.variables.iter().map(|(name, it)| (name.clone(), described(it))).collect();
     json!({
         "attributes": dataset.attributes,
         "coordinates": coordinates,
@@ -84,6 +73,18 @@ fn describe(dataset: &Dataset) -> Value {
     })
 }
 
+fn described(variable: &Variable) -> Value {
+    let (range, missing) = range(&variable.values);
+    json!({
+        "dimensions": variable.dimensions,
+        "shape": variable.values.shape(),
+        "unit": variable.unit,
+        "long_name": variable.long_name,
+        "range": range,
+        "missing": missing,
+    })
+}
+
 /// How many cases came out how; what did not occur is left out.
 fn outcomes(dataset: &Dataset) -> Vec<(String, Value)> {
     let Some(Variable { values: Values::Integer(codes), flags, .. }) =
@@ -91,8 +92,10 @@ fn outcomes(dataset: &Dataset) -> Vec<(String, Value)> {
     else {
         return Vec::new();
     };
-    let count = |code: i64| codes.iter().filter(|&&found| found == code).count();
-    let counts = flags.iter().map(|(code, name)| (name, count(*code)));
+    let counts = flags.iter().map(|(code, name)| {
+        let count = codes.iter().filter(|found| *found == code).count();
+        (name, count)
+    });
     counts
         .filter(|&(_, count)| count > 0)
         .map(|(name, count)| (name.clone(), json!(count)))
@@ -111,17 +114,18 @@ fn notify(dataset: &Dataset) -> String {
         let _ = writeln!(text, "outcomes: {}", counts.join(", "));
     }
     text.push_str(&attractor_list::tables(dataset));
-    let constant = |variable: &Variable| variable.dimensions.is_empty();
+    let (constants, variables): (Vec<_>, Vec<_>) =
+        dataset.variables.iter().partition(|(_, it)| it.dimensions.is_empty());
     text.push_str("\ncoordinates\n");
     for (name, variable) in &dataset.coordinates {
         write_variable(&mut text, name, variable);
     }
     text.push_str("\nvariables\n");
-    for (name, variable) in dataset.variables.iter().filter(|(_, v)| !constant(v)) {
+    for (name, variable) in variables {
         write_variable(&mut text, name, variable);
     }
     text.push_str("\nconstants\n");
-    for (name, variable) in dataset.variables.iter().filter(|(_, v)| constant(v)) {
+    for (name, variable) in constants {
         write_variable(&mut text, name, variable);
     }
     text

@@ -58,17 +58,14 @@ impl Join {
         let overwrite = self.overwrite;
         let campaign = Campaign { study: &study, output: &output, machine, overwrite };
         let watch = Watch::new(&self.study, &study);
-        let report = |event: Event<'_>| match event {
+        let join = if self.partial { Campaign::join_partial } else { Campaign::join };
+        let joined = join(&campaign, &|event| match event {
             Event::Before { .. } => {
                 notify(&format!("{}: is there, whole, from this study", printable(&output)));
                 ControlFlow::Continue(())
             }
             other => watch.hear(other),
-        };
-        let joined = match self.partial {
-            true => campaign.join_partial(&report),
-            false => campaign.join(&report),
-        };
+        });
         let file = watch.end(joined)?;
         if !self.no_figures {
             let folder = store::folder(&file.path);

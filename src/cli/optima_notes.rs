@@ -46,15 +46,15 @@ pub fn write_tolerances(text: &mut String, answer: &Answer) {
 /// How many draws keep the conditions and the budget.
 pub fn counts_of_draws(robustness: &Robustness) -> String {
     let Robustness { draws, meet_conditions, within_budget, meet_both, .. } = robustness;
-    let told = |count: &Option<usize>, does: &str| {
+    let counts = [
+        (meet_conditions, "keep the conditions"),
+        (within_budget, "keep to the budget"),
+        (meet_both, "do both"),
+    ];
+    let told = counts.map(|(count, does)| {
         count.map_or(String::new(), |count| format!(", {count} of {draws} draws {does}"))
-    };
-    [
-        told(meet_conditions, "keep the conditions"),
-        told(within_budget, "keep to the budget"),
-        told(meet_both, "do both"),
-    ]
-    .concat()
+    });
+    told.concat()
 }
 
 /// What may be spent and what speed is wanted, which choose motions of the front.

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::arguments::plain_or_quantity;
+use super::arguments::read_quantity;
 use crate::description::Description;
 use crate::quantity::Dimension;
 
@@ -32,12 +32,8 @@ impl Phases {
         for (option, _) in all.into_iter().filter(|it| it.1.is_some() && !model.has_drive()) {
             faults.push(format!("{option}: the model {} has no drive", model.name));
         }
-        let mut read = |option: &str, text: &Option<String>| {
-            let fault = |message| faults.push(format!("{option}: {message}"));
-            plain_or_quantity(text.as_ref()?, Dimension::Angle).map_err(fault).ok()
-        };
-        let both = read("--phase", &self.phase).unwrap_or(0.0);
-        let [_, own @ ..] = all;
-        own.map(|(option, text)| read(option, text).unwrap_or(both))
+        let [both, start, section] = all
+            .map(|(option, text)| read_quantity(option, text.as_ref()?, Dimension::Angle, faults));
+        [start, section].map(|own| own.or(both).unwrap_or(0.0))
     }
 }

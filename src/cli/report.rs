@@ -50,11 +50,11 @@ impl Report {
 
     /// Refuses to replace what this program has not written.
     fn check(&self, page: &Path) -> Result<(), Failure> {
-        let is_ours = |bytes: &[u8]| String::from_utf8_lossy(bytes).contains(GENERATOR);
         let page = &store::place(page).map_err(Failure::request)?;
         match std::fs::read(page) {
             Err(said) if said.kind() == std::io::ErrorKind::NotFound => Ok(()),
-            Ok(bytes) if self.overwrite || is_ours(&bytes) => Ok(()),
+            Ok(_) if self.overwrite => Ok(()),
+            Ok(bytes) if String::from_utf8_lossy(&bytes).contains(GENERATOR) => Ok(()),
             _ => Err(Failure::request(format!(
                 "{}: exists and is no report of this program; name another --output, or replace it with --overwrite",
                 printable(page)

@@ -5,19 +5,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::{named, plain_or_quantity};
+use super::arguments::{named, read_quantity};
 use super::failure::Failure;
 use super::phases::Phases;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
 use crate::capsule::description::CAPSULE;
 use crate::capsule::{self, CapsuleParameters as _, Resistance, Switching};
-use crate::description::{Description, Parameters, Remark, State};
+use crate::description::{Description, Parameter, Parameters, Remark, State};
 use crate::explore::{case_json, remarks};
 use crate::motion::{Case, Orbit, Simulation, SimulationSize};
 use crate::of::{all_models, default_model, model_called, model_of, settle_case};
 use crate::orbit::Protocol;
-use crate::quantity::Dimension;
 use crate::quantity::printable::printable;
 use crate::run::Machine;
 use crate::study::document::unknown;
@@ -101,6 +100,14 @@ struct Request {
     notes: Vec<String>,
 }
 
+/// A parameter as an option gives it.
+struct Given<'t> {
+    /// The option, as messages name it.
+    option: String,
+    parameter: Parameter,
+    text: &'t str,
+}
+
 impl Simulate {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
@@ -157,11 +164,38 @@ impl Simulate {
 
     fn request(&self) -> Result<Request, Failure> {
         let mut faults = Vec::new();
-        let mut parameters = Parameters::of(self.chosen_model(&mut faults));
-        if *parameters.model() == CAPSULE {
+        let model = self.chosen_model(&mut faults);
+        let mut parameters = Parameters::of(model);
+        if *model == CAPSULE {
             parameters.switch_by(self.friction_switching);
             parameters.resist_by(self.resistance);
         }
+        let given = self.given(model, &mut faults);
+        take(&mut parameters, &given, &mut faults);
+        let completed = (model.rules.complete)(&mut parameters, &|parameter| {
+            given.iter().any(|it| it.parameter == parameter)
+        });
+        let notes = completed.map(|it| it.why).into_iter().collect();
+        let start = self.start(model, &mut faults);
+        let [start_phase, section_phase] = self.phases.read(model, &mut faults);
+        if !Protocol::TOLERANCES.contains(&self.tolerance) {
+            faults.push(format!("--tolerance {}: must lie between 1e-15 and 1e-3", self.tolerance));
+        }
+        faults.extend(parameters.faults().iter().map(ToString::to_string));
+        if !faults.is_empty() {
+            return Err(Failure::requests(&faults));
+        }
+        let protocol = Protocol {
+            max_cycles: self.max_cycles,
+            max_steps: self.max_steps,
+            ..Protocol::with_tolerance(self.tolerance)
+        };
+        let case = Case { parameters, start, start_phase, section_phase };
+        Ok(Request { case, protocol, notes })
+    }
+
+    /// The parameters that options give, as they are written.
+    fn given(&self, model: &'static Description, faults: &mut Vec<String>) -> Vec<Given<'_>> {
         let own = [
             ("--omega", capsule::Parameter::Omega, &self.omega),
             ("--p-d", capsule::Parameter::Pd, &self.p_d),
@@ -170,45 +204,23 @@ impl Simulate {
         ];
         let mut given = Vec::new();
         for (option, parameter, text) in own {
-            given.extend(
-                text.as_ref().map(|text| (option.to_owned(), parameter.into(), text.as_str())),
-            );
+            if let Some(text) = text {
+                let (option, parameter) = (option.to_owned(), parameter.into());
+                given.push(Given { option, parameter, text });
+            }
         }
-        let model = parameters.model();
-        let symbols = || model.parameters().map(|parameter| parameter.symbol());
-        for (name, text) in pairs("--set", self.set.iter().map(String::as_str), &mut faults) {
+        for (name, text) in pairs("--set", self.set.iter().map(String::as_str), faults) {
             match model.parameter(name) {
-                Some(parameter) => given.push((format!("--set {name}"), parameter, text)),
-                None => faults.push(format!("--set: {}", unknown("parameter", name, symbols()))),
+                Some(parameter) => {
+                    given.push(Given { option: format!("--set {name}"), parameter, text });
+                }
+                None => {
+                    let symbols = model.parameters().map(|parameter| parameter.symbol());
+                    faults.push(format!("--set: {}", unknown("parameter", name, symbols)));
+                }
             }
         }
-        for (i, (option, parameter, text)) in given.iter().enumerate() {
-            if given[..i].iter().any(|(_, other, _)| other == parameter) {
-                faults.push(format!("{option}: {} is given twice", parameter.symbol()));
-            }
-            let value = quantity(option, text, parameter.dimension(), &mut faults);
-            parameters[*parameter] = value.unwrap_or(parameters[*parameter]);
-        }
-        let is_given = |parameter| given.iter().any(|(_, other, _)| *other == parameter);
-        let completed = (model.rules.complete)(&mut parameters, &is_given);
-        let notes = completed.map(|it| it.why).into_iter().collect();
-        let start = self.start(model, &mut faults);
-        let [start_phase, section_phase] = self.phases.read(model, &mut faults);
-        if !Protocol::TOLERANCES.contains(&self.tolerance) {
-            faults.push(format!("--tolerance {}: must lie between 1e-15 and 1e-3", self.tolerance));
-        }
-        faults.extend(parameters.faults().iter().map(ToString::to_string));
-        if faults.is_empty() {
-            let protocol = Protocol {
-                max_cycles: self.max_cycles,
-                max_steps: self.max_steps,
-                ..Protocol::with_tolerance(self.tolerance)
-            };
-            let case = Case { parameters, start, start_phase, section_phase };
-            Ok(Request { case, protocol, notes })
-        } else {
-            Err(Failure::requests(&faults))
-        }
+        given
     }
 
     /// The model that is asked for; the usual one where it is not known.
@@ -237,7 +249,7 @@ impl Simulate {
             }
             given.push(name);
             let dimension = coordinate.start().dimension;
-            let value = quantity(&format!("--start {name}"), text, dimension, faults);
+            let value = read_quantity(&format!("--start {name}"), text, dimension, faults);
             start[coordinate] = value.unwrap_or(0.0);
         }
         start
@@ -260,15 +272,15 @@ fn pairs<'t>(
     found
 }
 
-/// The quantity that an option was given; a fault is noted and gives none.
-fn quantity(
-    option: &str,
-    text: &str,
-    dimension: Dimension,
-    faults: &mut Vec<String>,
-) -> Option<f64> {
-    let fault = |message| faults.push(format!("{option}: {message}"));
-    plain_or_quantity(text, dimension).map_err(fault).ok()
+/// Takes the values that are given; faults are noted, as where a parameter is given twice.
+fn take(parameters: &mut Parameters, given: &[Given<'_>], faults: &mut Vec<String>) {
+    for (i, Given { option, parameter, text }) in given.iter().enumerate() {
+        if given[..i].iter().any(|other| other.parameter == *parameter) {
+            faults.push(format!("{option}: {} is given twice", parameter.symbol()));
+        }
+        let value = read_quantity(option, text, parameter.dimension(), faults);
+        parameters[*parameter] = value.unwrap_or(parameters[*parameter]);
+    }
 }
 
 /// A coordinate of the state as the table of a motion shows it.
@@ -300,28 +312,9 @@ fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> S
         .each()
         .map(|(parameter, value)| format!("{} = {value}", parameter.symbol()))
         .collect();
-    let model = parameters.model();
-    let coordinates: Vec<ShownCoordinate> =
-        (0..model.coordinates.len()).map(|place| ShownCoordinate::of(model, place)).collect();
-    let mut text = format!("{} (SI)\n\n{:>5} {:>12}", given.join(", "), "cycle", "t [s]");
+    let mut text = format!("{} (SI)\n\n", given.join(", "));
+    write_section(&mut text, parameters.model(), simulation);
     // Writing to a String cannot fail.
-    for it in &coordinates {
-        let _ = write!(text, " {:>14}", it.head);
-    }
-    for count in model.motion.counts {
-        let _ = write!(text, " {count:>8}");
-    }
-    text.push('\n');
-    for sample in &simulation.section {
-        let _ = write!(text, "{:>5} {:>12.6}", sample.cycle, sample.time);
-        for (it, value) in coordinates.iter().zip(sample.state.values()) {
-            let _ = write!(text, " {:>14.9}", value * it.factor);
-        }
-        for count in &sample.counts {
-            let _ = write!(text, " {count:>8}");
-        }
-        text.push('\n');
-    }
     let _ = writeln!(text, "{} events; --json lists them", simulation.events.len());
     if let Some(failure) = &simulation.failure {
         let _ = writeln!(text, "failed: {failure}");
@@ -339,6 +332,30 @@ fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> S
         let _ = writeln!(text, "  {remark}");
     }
     text
+}
+
+/// The section points of a motion as a table.
+fn write_section(text: &mut String, model: &'static Description, simulation: &Simulation) {
+    let coordinates: Vec<ShownCoordinate> =
+        (0..model.coordinates.len()).map(|place| ShownCoordinate::of(model, place)).collect();
+    let _ = write!(text, "{:>5} {:>12}", "cycle", "t [s]");
+    for it in &coordinates {
+        let _ = write!(text, " {:>14}", it.head);
+    }
+    for count in model.motion.counts {
+        let _ = write!(text, " {count:>8}");
+    }
+    text.push('\n');
+    for sample in &simulation.section {
+        let _ = write!(text, "{:>5} {:>12.6}", sample.cycle, sample.time);
+        for (it, value) in coordinates.iter().zip(sample.state.values()) {
+            let _ = write!(text, " {:>14.9}", value * it.factor);
+        }
+        for count in &sample.counts {
+            let _ = write!(text, " {count:>8}");
+        }
+        text.push('\n');
+    }
 }
 
 fn verdict(orbit: &Orbit) -> String {

@@ -5,26 +5,36 @@ use crate::campaign::Task;
 /// The task that Slurm has started, if it is one of an array.
 pub fn task(variable: impl Fn(&str) -> Option<String>) -> Option<Result<Task, String>> {
     let id = variable("SLURM_ARRAY_TASK_ID")?;
-    let read = |name: &str, usual: usize| match variable(name) {
+    Some(task_of(&id, variable))
+}
+
+/// The task of an array that has this id.
+fn task_of(id: &str, variable: impl Fn(&str) -> Option<String>) -> Result<Task, String> {
+    let number: usize =
+        id.trim().parse().map_err(|_| format!("SLURM_ARRAY_TASK_ID={id}: is no count"))?;
+    let first = count_in(&variable, "SLURM_ARRAY_TASK_MIN", 1)?;
+    let step = count_in(&variable, "SLURM_ARRAY_TASK_STEP", 1)?.max(1);
+    let of = count_in(&variable, "SLURM_ARRAY_TASK_COUNT", 0)?;
+    let place = number.checked_sub(first).filter(|more| more % step == 0);
+    match place.map(|more| more / step + 1) {
+        Some(number) if number <= of => Ok(Task { number, of }),
+        _ => Err(format!(
+            "SLURM_ARRAY_TASK_ID={number} does not tell which of {of} tasks this is (a list such as \
+             --array=1,5,7 is not evenly spaced); say it with --task I/N"
+        )),
+    }
+}
+
+/// The count in a variable; the usual one where it is not set.
+fn count_in(
+    variable: impl Fn(&str) -> Option<String>,
+    name: &str,
+    usual: usize,
+) -> Result<usize, String> {
+    match variable(name) {
         None => Ok(usual),
         Some(text) => text.trim().parse().map_err(|_| format!("{name}={text}: is no count")),
-    };
-    let task = || {
-        let id: usize =
-            id.trim().parse().map_err(|_| format!("SLURM_ARRAY_TASK_ID={id}: is no count"))?;
-        let first = read("SLURM_ARRAY_TASK_MIN", 1)?;
-        let step = read("SLURM_ARRAY_TASK_STEP", 1)?.max(1);
-        let of = read("SLURM_ARRAY_TASK_COUNT", 0)?;
-        let place = id.checked_sub(first).filter(|more| more % step == 0);
-        match place.map(|more| more / step + 1) {
-            Some(number) if number <= of => Ok(Task { number, of }),
-            _ => Err(format!(
-                "SLURM_ARRAY_TASK_ID={id} does not tell which of {of} tasks this is (a list such as \
-                 --array=1,5,7 is not evenly spaced); say it with --task I/N"
-            )),
-        }
-    };
-    Some(task())
+    }
 }
 
 #[cfg(test)]

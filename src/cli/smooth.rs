@@ -1,7 +1,7 @@
 //! `capsulemap smooth`: the signals of a recording, smoothed or differentiated.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -51,8 +51,7 @@ impl Smooth {
     pub fn run(&self) -> Result<(), Failure> {
         let length = files::quantity("--window", &self.window, Dimension::Time);
         let length = length.map_err(Failure::request)?;
-        let check = |path: &Path| files::check_free(path, self.overwrite);
-        let target = Target::of(&self.output, check)?;
+        let target = Target::of(&self.output, |path| files::check_free(path, self.overwrite))?;
         let recording = files::motion(&self.recording)?;
         let sampling = recording.sampling();
         let window = self.window(length, sampling.interval)?;

@@ -27,9 +27,9 @@ fn listen() -> Result<(), Failure> {
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
-    let failed = |error| Failure::machine(format!("signals cannot be handled: {error}"));
     let heard = [SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
-    let mut signals = Signals::new(heard).map_err(failed)?;
+    let mut signals = Signals::new(heard)
+        .map_err(|error| Failure::machine(format!("signals cannot be handled: {error}")))?;
     thread::spawn(move || {
         if let Some(signal) = signals.forever().next() {
             let message = MESSAGE.lock().unwrap_or_else(|it| it.into_inner());

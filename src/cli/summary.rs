@@ -6,7 +6,7 @@ use std::path::Path;
 use super::readable::{count, counted};
 use crate::orbit::Outcome;
 use crate::quantity::printable::printable;
-use crate::store::{Blocks, StoreError, Summary, by_outcome};
+use crate::store::{Blocks, FailedCase, StoreError, Summary, by_outcome};
 use crate::study::Study;
 
 /// So many failed cases are named; the file names them all.
@@ -15,7 +15,8 @@ const FAILURES_SHOWN: usize = 5;
 /// How many cases in the blocks of a study, which is in the file `path`, came out how, and how to look at those
 /// that failed; they are in the file `output` now.
 pub fn summary(
-    (path, study): (&Path, &Study),
+    path: &Path,
+    study: &Study,
     output: &Path,
     blocks: &Blocks<'_>,
 ) -> Result<String, StoreError> {
@@ -39,17 +40,7 @@ pub fn summary(
         let _ = writeln!(text, "  {:<14} {}", "missing", count(missing));
     }
     for failed in blocks.failures(FAILURES_SHOWN)? {
-        let (index, path) = (failed.index, printable(path));
-        let _ =
-            writeln!(text, "  case {index} failed: {}, at t = {:e} s", failed.reason, failed.time);
-        let _ = write!(text, "    replay: capsulemap simulate --study {path} --case {index}");
-        let (start, usual) = (failed.start, study.case(index).start.without_drift());
-        if start != usual {
-            let coordinates = study.base.model().start_coordinates();
-            let given = coordinates.map(|it| format!("{}={}", it.name(), start[it]));
-            let _ = write!(text, " --start {}", given.collect::<Vec<_>>().join(","));
-        }
-        text.push('\n');
+        write_failed(&mut text, &failed, path, study);
     }
     let failed = by_outcome(&summaries).into_iter().find(|it| it.0 == Outcome::Failed);
     if let Some((_, failed)) = failed.filter(|(_, failed)| *failed > FAILURES_SHOWN) {
@@ -57,6 +48,20 @@ pub fn summary(
         let _ = writeln!(text, "  and {more} more, where the file has the outcome `failed`");
     }
     Ok(text)
+}
+
+/// A case that failed, and how to look at it, by the file of the study.
+fn write_failed(text: &mut String, failed: &FailedCase, path: &Path, study: &Study) {
+    let FailedCase { index, start, reason, time } = failed;
+    let path = printable(path);
+    let _ = writeln!(text, "  case {index} failed: {reason}, at t = {time:e} s");
+    let _ = write!(text, "    replay: capsulemap simulate --study {path} --case {index}");
+    if *start != study.case(*index).start.without_drift() {
+        let coordinates = study.base.model().start_coordinates();
+        let given = coordinates.map(|it| format!("{}={}", it.name(), start[it]));
+        let _ = write!(text, " --start {}", given.collect::<Vec<_>>().join(","));
+    }
+    text.push('\n');
 }
 
 /// The cases of a refined study that have been computed, as one block.
@@ -73,7 +78,6 @@ fn of_computed(blocks: &Blocks<'_>) -> Result<Summary, StoreError> {
 
 /// Cases by outcome, a line each.
 pub fn outcomes(blocks: &[Summary]) -> String {
-    let line =
-        |(outcome, cases): (Outcome, usize)| format!("  {:<14} {}\n", outcome.name(), count(cases));
-    by_outcome(blocks).into_iter().map(line).collect()
+    let counts = by_outcome(blocks).into_iter();
+    counts.map(|(it, cases)| format!("  {:<14} {}\n", it.name(), count(cases))).collect()
 }

@@ -123,10 +123,9 @@ impl Sweep {
 
     /// Which part of the study to compute.
     fn task(&self) -> Result<Task, Failure> {
-        let from_slurm = || slurm::task(|name| std::env::var(name).ok());
         let task = match self.task {
             Some(task) => task,
-            None => match from_slurm() {
+            None => match slurm::task(|name| std::env::var(name).ok()) {
                 None => return Ok(Task::WHOLE),
                 Some(task) => {
                     let task = task.map_err(Failure::request)?;

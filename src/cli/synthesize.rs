@@ -78,17 +78,11 @@ impl Synthesize {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let mut faults = Vec::new();
-        let mut read = |option: &str, text: &str, dimension| {
-            let value = files::quantity(option, text, dimension);
-            value.unwrap_or_else(|fault| {
-                faults.push(fault);
-                1.0
-            })
-        };
-        let rate = read("--rate", &self.rate, Dimension::AngularFrequency) / std::f64::consts::TAU;
-        let phase = read("--phase", &self.phase, Dimension::Angle);
-        let motor_constant =
-            read("--motor-constant", &self.motor_constant, Dimension::ForcePerCurrent);
+        let rate = read("--rate", &self.rate, Dimension::AngularFrequency, &mut faults);
+        let rate = rate / std::f64::consts::TAU;
+        let phase = read("--phase", &self.phase, Dimension::Angle, &mut faults);
+        let (option, dimension) = ("--motor-constant", Dimension::ForcePerCurrent);
+        let motor_constant = read(option, &self.motor_constant, dimension, &mut faults);
         if rate <= 0.0 {
             faults.push(format!("--rate: {} must be above zero", self.rate));
         }
@@ -97,16 +91,11 @@ impl Synthesize {
             return Err(Failure::requests(&faults));
         }
         let (case, _) = case_of(&self.study, self.case)?;
-        let paths: Vec<PathBuf> = Test::ALL
-            .map(Test::name)
-            .into_iter()
-            .chain(["motion"])
-            .map(|name| self.output.join(format!("{name}.csv")))
-            .collect();
+        let paths = self.paths();
         for path in &paths {
             files::check_free(path, self.overwrite)?;
         }
-        let motion = self.motion(&case, (rate, phase), &sensors)?;
+        let motion = self.motion(&case, rate, phase, &sensors)?;
         let laboratory = Laboratory {
             r_noise: noise_of(&sensors, Signal::R),
             deflection_noise: noise_of(&sensors, Signal::X2),
@@ -120,6 +109,12 @@ impl Synthesize {
             text += &format!("{}\n", printable(path));
         }
         print(&text)
+    }
+
+    /// The files to write, in the order of [`Test::ALL`], that of the motion last.
+    fn paths(&self) -> Vec<PathBuf> {
+        let names = Test::ALL.map(Test::name).into_iter().chain(["motion"]);
+        names.map(|name| self.output.join(format!("{name}.csv"))).collect()
     }
 
     /// The sensors as they are set.
@@ -160,7 +155,8 @@ impl Synthesize {
     fn motion(
         &self,
         case: &Case,
-        (rate, phase): (f64, f64),
+        rate: f64,
+        phase: f64,
         sensors: &[Sensor],
     ) -> Result<String, Failure> {
         let duration = self.cycles as f64 * case.parameters.drive_period();
@@ -183,6 +179,14 @@ impl Synthesize {
             [times.as_slice()].into_iter().chain(values.iter().map(Vec::as_slice)).collect();
         Ok(csv(&header.join(","), &columns))
     }
+}
+
+/// The quantity that an option was given; a fault is noted, and 1 stands for it.
+fn read(option: &str, text: &str, dimension: Dimension, faults: &mut Vec<String>) -> f64 {
+    files::quantity(option, text, dimension).unwrap_or_else(|fault| {
+        faults.push(fault);
+        1.0
+    })
 }
 
 /// What the capsule settles to from `start`, at this phase of the drive and at x2 = 0.
@@ -216,26 +220,23 @@ fn noise_of(sensors: &[Sensor], signal: Signal) -> f64 {
 
 /// The simple tests as files, in the order of [`Test::ALL`].
 fn test_files(tests: &SimpleTests) -> Vec<String> {
-    let of = |header: &str, columns: &[Vec<f64>]| {
-        csv(header, &columns.iter().map(Vec::as_slice).collect::<Vec<_>>())
-    };
     vec![
-        of("t [s],r [m]", &tests.free_vibration),
-        of("force [N],deflection [m]", &tests.static_force),
-        of("pulled_mass [kg]", std::slice::from_ref(&tests.pull)),
-        of("v [m/s],d [m]", &tests.coasting),
-        of("current [A],force [N]", &tests.motor),
+        csv("t [s],r [m]", &tests.free_vibration),
+        csv("force [N],deflection [m]", &tests.static_force),
+        csv("pulled_mass [kg]", std::slice::from_ref(&tests.pull)),
+        csv("v [m/s],d [m]", &tests.coasting),
+        csv("current [A],force [N]", &tests.motor),
     ]
 }
 
 /// Columns as CSV, with eight digits, which is far below any noise.
-fn csv(header: &str, columns: &[&[f64]]) -> String {
+fn csv<C: AsRef<[f64]>>(header: &str, columns: &[C]) -> String {
     let mut text = format!("{header}\n");
-    for row in 0..columns[0].len() {
+    for row in 0..columns[0].as_ref().len() {
         for (place, column) in columns.iter().enumerate() {
             let joint = if place == 0 { "" } else { "," };
             // Writing to a text cannot fail.
-            let _ = write!(text, "{joint}{:.8e}", column[row]);
+            let _ = write!(text, "{joint}{:.8e}", column.as_ref()[row]);
         }
         text.push('\n');
     }

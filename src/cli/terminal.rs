@@ -82,13 +82,14 @@ pub fn flush() {
 /// The way to the thread; none if the system has no thread for it.
 fn messages() -> Option<&'static Messages> {
     static MESSAGES: OnceLock<Option<Messages>> = OnceLock::new();
-    let begin = || {
-        let (turns, taken): (_, Receiver<Turn>) = sync_channel(MOST_WAITING);
-        let work = move || taken.into_iter().for_each(|turn| turn());
-        thread::Builder::new().spawn(work).ok()?;
-        Some(Messages { turns, dropped: Mutex::new(0) })
-    };
     MESSAGES.get_or_init(begin).as_ref()
+}
+
+/// Starts the thread.
+fn begin() -> Option<Messages> {
+    let (turns, taken): (_, Receiver<Turn>) = sync_channel(MOST_WAITING);
+    thread::Builder::new().spawn(move || taken.into_iter().for_each(|turn| turn())).ok()?;
+    Some(Messages { turns, dropped: Mutex::new(0) })
 }
 
 fn write_line(line: &str) {
@@ -99,16 +100,18 @@ fn write_line(line: &str) {
 /// A text in which a terminal finds nothing to obey: control characters, but for the ends of lines and tabs, and those
 /// that change the direction of a text are shown by their numbers, as JSON writes them.
 fn visible(text: &str) -> Cow<'_, str> {
-    let obeyed = |c: char| is_obeyed(c) && c != '\n' && c != '\t';
-    if !text.contains(obeyed) {
+    if !text.contains(is_numbered) {
         return Cow::Borrowed(text);
     }
-    let shown = |c: char| match obeyed(c) {
-        true => numbered(c),
-        false => c.to_string(),
-    };
     // The end of a line as Windows writes it.
-    Cow::Owned(text.replace("\r\n", "\n").chars().map(shown).collect())
+    let text = text.replace("\r\n", "\n");
+    let shown = text.chars().map(|c| if is_numbered(c) { numbered(c) } else { c.to_string() });
+    Cow::Owned(shown.collect())
+}
+
+/// Whether a character is shown by its number.
+fn is_numbered(c: char) -> bool {
+    is_obeyed(c) && c != '\n' && c != '\t'
 }
 
 #[cfg(test)]

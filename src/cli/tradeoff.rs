@@ -7,7 +7,9 @@ use clap::Args;
 
 use super::arguments::{named, price, with_trade_off};
 use super::failure::Failure;
-use super::optima_text::{csv, json, table};
+use super::optima_csv::csv;
+use super::optima_json::json;
+use super::optima_text::table;
 use super::readable::count;
 use super::stop::say_when_stopped;
 use super::terminal::{notify, print};
@@ -179,16 +181,16 @@ impl Tradeoff {
             faults.push(fault);
             model.power()
         });
-        let mut read = |option: &str, text: &Option<String>, unit: &str| {
+        let speed_unit = model.speed().unit();
+        let limits = [
+            ("at-rest", &self.at_rest, speed_unit),
+            ("budget", &self.budget, of.unit()),
+            ("speed", &self.speed, speed_unit),
+        ];
+        let [at_rest, budget, speed] = limits.map(|(option, text, unit)| {
             let value = quantity(text.as_deref()?, unit);
             value.map_err(|fault| faults.push(format!("--{option}: {fault}"))).ok()
-        };
-        let speed_unit = model.speed().unit();
-        let [at_rest, budget, speed] = [
-            read("at-rest", &self.at_rest, speed_unit),
-            read("budget", &self.budget, of.unit()),
-            read("speed", &self.speed, speed_unit),
-        ];
+        });
         let tolerances =
             self.tolerances.as_ref().map(|text| self.read_tolerances(text, model, &mut faults));
         let request = Request { of, at_rest, budget, speed, tolerances };
@@ -204,31 +206,33 @@ impl Tradeoff {
     ) -> Tolerances {
         let mut each: Vec<(Parameter, f64)> = Vec::new();
         for part in text.split(',') {
-            let fault = |message: String| format!("--tolerances {}: {message}", part.trim());
-            let Some((name, value)) = part.split_once('=') else {
-                faults.push(fault("expected PARAMETER = PERCENT".to_owned()));
-                continue;
-            };
-            let symbols = || model.parameters().map(|it| it.symbol());
-            match (model.parameter(name.trim()), quantity(value, Dimension::Number.unit())) {
-                (None, _) => faults.push(fault(unknown("parameter", name.trim(), symbols()))),
-                (_, Err(message)) => {
-                    faults.push(fault(format!(
-                        "{message}, relative to the parameter, as 5 % or 0.05"
-                    )));
-                }
-                (Some(parameter), Ok(_)) if each.iter().any(|it| it.0 == parameter) => {
-                    faults.push(fault(format!("{} is given twice", parameter.symbol())));
-                }
-                (Some(parameter), Ok(most)) if most > 0.0 && most < 1.0 => {
-                    each.push((parameter, most));
-                }
-                (_, Ok(most)) => {
-                    let percent = 100.0 * most;
-                    faults.push(fault(format!("is {percent} %; must lie between 0 and 100 %")));
-                }
+            match read_tolerance(part, &each, model) {
+                Ok(tolerance) => each.push(tolerance),
+                Err(fault) => faults.push(format!("--tolerances {}: {fault}", part.trim())),
             }
         }
         Tolerances { each, draws: self.draws as usize, seed: self.seed }
     }
+}
+
+/// The tolerance that a part of a text gives a parameter, which none of those `before` is of.
+fn read_tolerance(
+    part: &str,
+    before: &[(Parameter, f64)],
+    model: &'static Description,
+) -> Result<(Parameter, f64), String> {
+    let (name, value) = part.split_once('=').ok_or("expected PARAMETER = PERCENT")?;
+    let Some(parameter) = model.parameter(name.trim()) else {
+        let symbols = model.parameters().map(|it| it.symbol());
+        return Err(unknown("parameter", name.trim(), symbols));
+    };
+    let most = quantity(value, Dimension::Number.unit())
+        .map_err(|fault| format!("{fault}, relative to the parameter, as 5 % or 0.05"))?;
+    if before.iter().any(|it| it.0 == parameter) {
+        return Err(format!("{} is given twice", parameter.symbol()));
+    }
+    if !(most > 0.0 && most < 1.0) {
+        return Err(format!("is {} %; must lie between 0 and 100 %", 100.0 * most));
+    }
+    Ok((parameter, most))
 }

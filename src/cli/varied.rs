@@ -1,7 +1,7 @@
 //! Parameters with bounds, as options name them, and how values of them are printed.
 
 use super::files;
-use super::identify::{shown, unit};
+use super::identify_report::{shown, unit};
 use crate::capsule::Parameter;
 use crate::experiment::least_squares::Bounds;
 use crate::experiment::{Free, Side};
@@ -82,16 +82,10 @@ fn one(option: &str, part: &str, faults: &mut Vec<String>) -> Option<Varied> {
         faults.push(format!("{option}: {}", unknown("parameter", name, symbols)));
         return None;
     };
-    let mut read = |text: &str| {
-        let value = files::quantity(&format!("{option} {name}"), text, parameter.dimension());
-        let allowed = |value: &f64| parameter.allowed().admits(*value);
-        let found = value.and_then(|value| match allowed(&value) {
-            true => Ok(value),
-            false => Err(format!("{option} {name}: {value} must be {}", parameter.allowed())),
-        });
-        found.map_err(|fault| faults.push(fault)).ok()
-    };
-    let (least, greatest) = (read(from), read(to));
+    let [least, greatest] = [from, to].map(|text| {
+        let value = allowed_quantity(&format!("{option} {name}"), text, parameter);
+        value.map_err(|fault| faults.push(fault)).ok()
+    });
     let (least, greatest) = (least?, greatest?);
     if least >= greatest {
         faults.push(format!("{option} {name}: {from} must be below {to}"));
@@ -104,11 +98,20 @@ fn one(option: &str, part: &str, faults: &mut Vec<String>) -> Option<Varied> {
     })
 }
 
+/// A value that a parameter may have.
+fn allowed_quantity(option: &str, text: &str, parameter: Parameter) -> Result<f64, String> {
+    let value = files::quantity(option, text, parameter.dimension())?;
+    match parameter.allowed().admits(value) {
+        true => Ok(value),
+        false => Err(format!("{option}: {value} must be {}", parameter.allowed())),
+    }
+}
+
 /// The unit that a quantity was given in, or that of SI where it has none.
 fn unit_of(text: &str, dimension: Dimension) -> (String, f64) {
-    let is_number = |end: &usize| text[..*end].trim().parse::<f64>().is_ok();
-    let ends = text.char_indices().map(|it| it.0).rev().find(is_number).unwrap_or(text.len());
-    match units::unit(&text[ends..], dimension).filter(|it| !it.0.is_empty()) {
+    let mut ends = text.char_indices().map(|it| it.0).rev();
+    let end = ends.find(|end| text[..*end].trim().parse::<f64>().is_ok()).unwrap_or(text.len());
+    match units::unit(&text[end..], dimension).filter(|it| !it.0.is_empty()) {
         Some((name, size)) => (format!(" {name}"), size),
         None => (unit(dimension), 1.0),
     }

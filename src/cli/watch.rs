@@ -116,7 +116,7 @@ impl<'a> Watch<'a> {
 
     /// Prints what the file holds.
     fn joined(&self, path: &Path, blocks: &Blocks<'_>) -> Result<(), Failure> {
-        let summary = summary((self.path, self.study), path, blocks).map_err(Failure::machine)?;
+        let summary = summary(self.path, self.study, path, blocks).map_err(Failure::machine)?;
         print(&summary)?;
         let shown = printable(path).to_string();
         say_when_stopped(move || format!("{shown} is whole; the same command draws its figures"))
