@@ -32,7 +32,7 @@ pub fn memory(study: &Study, threads: usize, probe: &Probe) -> Memory {
     Memory { computing: computing(study, threads, probe), joining: joining(study) }
 }
 
-/// That while cases are computed.
+/// The memory held while cases are computed [bytes].
 fn computing(study: &Study, threads: usize, probe: &Probe) -> f64 {
     let &Probe { most, unfinished, .. } = probe;
     let cases = study.cases() as f64;
@@ -51,7 +51,7 @@ fn computing(study: &Study, threads: usize, probe: &Probe) -> f64 {
     PROGRAM + records + packing
 }
 
-/// That while blocks are joined.
+/// The memory held while blocks are joined [bytes].
 fn joining(study: &Study) -> f64 {
     let cases = study.cases() as f64;
     let numbers = numbers_of_case(study);

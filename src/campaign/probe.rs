@@ -244,11 +244,11 @@ fn is_weighed(index: usize, every: usize) -> bool {
     (index / RUN).is_multiple_of(every)
 }
 
-/// The most cases that are computed of a block of a study, of which so large a share of all cases is computed.
-fn most_of_block(study: &Study, computed: f64) -> usize {
+/// Cases that are computed of the largest block, where this share of all cases is computed.
+fn most_of_block(study: &Study, share: f64) -> usize {
     let sizes = (0..study.blocks()).map(|block| study.cases_of_block(block));
     let largest = sizes.max().unwrap_or(0) as f64;
-    if computed.is_finite() { (computed * largest).ceil() as usize } else { 0 }
+    if share.is_finite() { (share * largest).ceil() as usize } else { 0 }
 }
 
 impl<'a> Found<'a> {
@@ -321,7 +321,7 @@ impl<'a> Found<'a> {
         self.tiles.iter().map(|(cases, _)| cases.len()).sum()
     }
 
-    /// Time that all cases would take, of which this share is computed, and that of packing them; all in seconds.
+    /// Time that all cases take to be computed, of which this share is, and to be packed [s].
     fn seconds(&self, time: Duration, share: f64, packing: f64) -> Option<Estimate> {
         let (cases, cycles) = self.computed;
         let pace = time.as_secs_f64() / cycles as f64;

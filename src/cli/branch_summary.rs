@@ -89,8 +89,8 @@ fn write_without_curve(text: &mut String, found: &Found) {
 
 fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
     let points = branch.points.len();
-    let stable = branch.points.iter().filter(|it| it.multipliers.iter().all(|m| m.abs() < 1.0));
-    let stable = stable.count();
+    let stable =
+        branch.points.iter().filter(|it| it.multipliers.iter().all(|m| m.abs() < 1.0)).count();
     let _ = writeln!(
         text,
         "  {points} points, {stable} stable, {} unstable, {}",

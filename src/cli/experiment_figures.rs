@@ -48,17 +48,21 @@ pub fn evidence_plot(
     match evidence {
         Evidence::Decay(decay) => Some(decay_plot(test, recording, decay, given)),
         Evidence::Line(line) if test == Test::StaticForce => {
-            let load =
-                Drawn { values: recording.required("force"), factor: 1.0, name: "Load", unit: "N" };
+            let load = DrawnColumn {
+                values: recording.required("force"),
+                factor: 1.0,
+                name: "Load",
+                unit: "N",
+            };
             let values = recording.required("deflection");
-            let deflection = Drawn { values, factor: 1e3, name: "Deflection", unit: "mm" };
+            let deflection = DrawnColumn { values, factor: 1e3, name: "Deflection", unit: "mm" };
             Some(line_plot(test, line, &load, &deflection))
         }
         Evidence::Line(line) => {
             let values = recording.required("current");
-            let current = Drawn { values, factor: 1.0, name: "Current", unit: "A" };
+            let current = DrawnColumn { values, factor: 1.0, name: "Current", unit: "A" };
             let values = recording.required("force");
-            let force = Drawn { values, factor: 1.0, name: "Force", unit: "N" };
+            let force = DrawnColumn { values, factor: 1.0, name: "Force", unit: "N" };
             Some(line_plot(test, line, &current, &force))
         }
         Evidence::Coasting(coasting) => {
@@ -101,7 +105,7 @@ fn decay_plot(test: Test, recording: &Recording, decay: &FreeVibration, given: &
 }
 
 /// A column of a recording as it is drawn.
-struct Drawn<'a> {
+struct DrawnColumn<'a> {
     /// Its values (SI).
     values: &'a [f64],
     /// What they are multiplied by.
@@ -112,14 +116,14 @@ struct Drawn<'a> {
     unit: &'static str,
 }
 
-impl Drawn<'_> {
+impl DrawnColumn<'_> {
     fn label(&self) -> String {
         format!("{} ({})", self.name, self.unit)
     }
 }
 
 /// Points with their line, and what it leaves of them.
-fn line_plot(test: Test, line: &Line, x: &Drawn<'_>, y: &Drawn<'_>) -> Plot {
+fn line_plot(test: Test, line: &Line, x: &DrawnColumn<'_>, y: &DrawnColumn<'_>) -> Plot {
     let factors = [x.factor, y.factor];
     let ends = [f64::min, f64::max].map(|end| x.values.iter().copied().reduce(end).unwrap_or(0.0));
     let on_line = ends

@@ -43,14 +43,14 @@ pub fn recording_in(
 
 /// The recording of a motion: times, and any of the signals.
 pub fn motion(path: &Path) -> Result<Recording, Failure> {
-    let times = Column { presence: Presence::Required, ..optional("t", Dimension::Time) };
-    let signals = Signal::ALL.map(|it| optional(it.name(), it.dimension()));
-    let current = optional("current", Dimension::Current);
+    let times = Column { presence: Presence::Required, ..optional_column("t", Dimension::Time) };
+    let signals = Signal::ALL.map(|it| optional_column(it.name(), it.dimension()));
+    let current = optional_column("current", Dimension::Current);
     let known: Vec<Column> = [times, current].into_iter().chain(signals).collect();
     recording(path, &known, LEAST_ROWS)
 }
 
-fn optional(name: &'static str, dimension: Dimension) -> Column {
+fn optional_column(name: &'static str, dimension: Dimension) -> Column {
     Column { name, dimension, presence: Presence::Optional }
 }
 

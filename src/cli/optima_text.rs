@@ -134,7 +134,7 @@ fn write_row(text: &mut String, answer: &Answer, what: &str, row: &Row) {
         1e3 * row.speed,
         row.price,
         row.energy_per_metre,
-        place(row),
+        varied_values(row),
         match row.case {
             Some(case) => format!("case {case}"),
             None => format!("between cases, active constraint: {}", row.slopes.held_by.join(", ")),
@@ -159,7 +159,7 @@ fn under_tolerances(answer: &Answer, row: &Row) -> String {
 }
 
 /// The values of what varies in the file.
-fn place(row: &Row) -> String {
+fn varied_values(row: &Row) -> String {
     let varied = row.coordinates.iter().filter(|(.., varies)| *varies);
     let values = varied.map(|(it, value, _)| {
         let unit = Some(it.dimension().unit()).filter(|unit| *unit != "1");

@@ -171,7 +171,7 @@ impl Simulate {
             parameters.resist_by(self.resistance);
         }
         let given = self.given(model, &mut faults);
-        take(&mut parameters, &given, &mut faults);
+        set_given(&mut parameters, &given, &mut faults);
         let completed = (model.rules.complete)(&mut parameters, &|parameter| {
             given.iter().any(|it| it.parameter == parameter)
         });
@@ -272,8 +272,8 @@ fn pairs<'t>(
     found
 }
 
-/// Takes the values that are given; faults are noted, as where a parameter is given twice.
-fn take(parameters: &mut Parameters, given: &[Given<'_>], faults: &mut Vec<String>) {
+/// Sets the values that are given; faults are noted, as where a parameter is given twice.
+fn set_given(parameters: &mut Parameters, given: &[Given<'_>], faults: &mut Vec<String>) {
     for (i, Given { option, parameter, text }) in given.iter().enumerate() {
         if given[..i].iter().any(|other| other.parameter == *parameter) {
             faults.push(format!("{option}: {} is given twice", parameter.symbol()));

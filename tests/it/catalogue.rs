@@ -27,12 +27,13 @@ const DEFINING: [&str; 7] = [
 ];
 
 /// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
-const OTHERS: [(&str, &[&str], &str); 16] = [
+const OTHERS: [(&str, &[&str], &str); 17] = [
     ("src/study/study_file.rs", &["cycles", "attractor"], "keys of a study"),
     ("src/study/study_text.rs", KEYS, "keys of a study"),
     ("src/study/start_file.rs", &["direction"], "keys of a study"),
     ("src/study/branch_file.rs", &["period"], "keys of a study"),
     ("src/study/drawing_file.rs", &["cycles"], "a key of a study"),
+    ("src/study/drawing_text.rs", &["cycles"], "a key of a study"),
     ("src/study/drawing.rs", SHOWN, "what the key `of` may name, which a test here compares"),
     ("src/study/drawing.rs", &["attractor", "direction"], "what the key `colour_by` may name"),
     (
