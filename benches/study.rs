@@ -3,7 +3,8 @@
 //!
 //! `cargo bench --bench study` first computes four studies on one thread, once each: the seconds that cases and
 //! attractors take, the cycles that the cases followed, and the share of the time beyond what the lanes alone need for as
-//! many cycles of the same cases. Then 20 000 cases on one thread and on all: the median of three interleaved repetitions
+//! many cycles of the same cases; and for each kernel of lanes the steps of lanes and how many of these had a motion in the
+//! lane. Then 20 000 cases on one thread and on all: the median of three interleaved repetitions
 //! with their spread. No file is written.
 
 mod lanes;
@@ -13,6 +14,7 @@ use std::time::Instant;
 
 use capsulemap::capsule::{CapsuleState as _, Parameters, State};
 use capsulemap::lane::Instructions;
+use capsulemap::orbit::{Kernel, LaneSteps};
 use capsulemap::run::{Machine, attractors, final_motions, has_attractors, run, run_sample};
 use capsulemap::study::Study;
 use lanes::{CYCLES, integrate_from};
@@ -97,10 +99,19 @@ fn main() {
          events a cycle |"
     );
     println!("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
-    show("overview", &overview);
-    show("basin", &basin);
-    show("four parameters", &four);
-    show("20 000 cases", TWENTY_THOUSAND);
+    let studies = [
+        ("overview", &overview[..]),
+        ("basin", &basin),
+        ("four parameters", &four),
+        ("20 000 cases", TWENTY_THOUSAND),
+    ];
+    let steps = studies.map(|(name, text)| (name, show(name, text)));
+    println!("\nMillions of steps of lanes, and the lanes with a motion:");
+    println!("| study | {} |", Kernel::ALL.map(Kernel::name).join(" | "));
+    println!("|---|{}", "---:|".repeat(Kernel::ALL.len()));
+    for (name, steps) in steps {
+        println!("| {name} | {} |", steps.map(|it| occupancy(&it)).join(" | "));
+    }
     println!();
     share_out();
 }
@@ -109,8 +120,20 @@ fn parsed(text: &str) -> Study {
     Study::parse("the bench", text).expect("a study")
 }
 
-/// Computes a study on one thread and prints what it took.
-fn show(name: &str, text: &str) {
+/// The steps of the lanes of a kernel, and how many had a motion.
+fn occupancy(steps: &LaneSteps) -> String {
+    match steps.all {
+        0 => "-".to_string(),
+        all => {
+            let share = 100.0 * steps.with_motion as f64 / all as f64;
+            format!("{:.1}, {share:.0} %", all as f64 * 1e-6)
+        }
+    }
+}
+
+/// Computes a study on one thread and prints what it took; the steps of the lanes of each kernel.
+fn show(name: &str, text: &str) -> [LaneSteps; Kernel::ALL.len()] {
+    let before = Kernel::ALL.map(Kernel::steps);
     let study = parsed(text);
     let all: Vec<usize> = (0..study.chains()).collect();
     let begun = Instant::now();
@@ -123,6 +146,7 @@ fn show(name: &str, text: &str) {
         found.expect("the thread starts");
     }
     let of_attractors = begun.elapsed().as_secs_f64();
+    let steps = Kernel::ALL.map(|it| it.steps().since(before[it as usize]));
     let (all, alone) = (of_cases + of_attractors, LanesAlone::of(&study));
     println!(
         "| {name} | {} | {cycles} | {of_cases:.2} | {of_attractors:.2} | {:.0} | {:.0} | {:.0} % | {:.1} | {:.1} |",
@@ -133,6 +157,7 @@ fn show(name: &str, text: &str) {
         alone.steps,
         alone.events
     );
+    steps
 }
 
 /// What the lanes alone do with cases spread over a study.

@@ -5,6 +5,7 @@ use crate::lane::{Dual, Instructions, Lane, SideBySide, Work};
 
 use super::exponent::{Exponent, Stretching};
 use super::lanes::{EndedCycle, Lanes, Task};
+use super::occupancy::Kernel;
 use super::recurrence::Settled;
 use super::{Outcome, Protocol};
 
@@ -155,6 +156,7 @@ impl<L: Lane, M: System<D>, const D: usize> Parting<'_, L, M, D> {
 
 impl<L: Lane, M: System<D>, const D: usize> Task<Dual<L, 1>, M, D> for Parting<'_, L, M, D> {
     type Kept = Follower<D>;
+    const KERNEL: Kernel = Kernel::Exponents;
 
     #[inline(always)]
     fn fill(&mut self, lanes: &mut Lanes<Dual<L, 1>, M, Follower<D>, D>) -> bool {

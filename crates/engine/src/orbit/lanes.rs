@@ -3,6 +3,8 @@
 use crate::flow::{Breakdown, MAX_GUARDS, Motion, STEPS_PER_CYCLE, Step, Switched, System};
 use crate::lane::{Lane, Mask, SideBySide};
 
+use super::occupancy::{Kernel, LaneSteps};
+
 /// A cycle that has ended.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EndedCycle {
@@ -16,6 +18,9 @@ pub(super) struct EndedCycle {
 pub(super) trait Task<N: Lane, M: System<D>, const D: usize> {
     /// What goes with a motion while it is in a lane.
     type Kept;
+
+    /// What the motions are followed for.
+    const KERNEL: Kernel;
 
     /// Puts motions that wait into free lanes, before each step; whether there is anything left to follow.
     fn fill(&mut self, lanes: &mut Lanes<N, M, Self::Kept, D>) -> bool;
@@ -58,6 +63,8 @@ pub(super) struct Lanes<N: Lane, M: System<D>, A, const D: usize> {
     entering: Motion<N, M::In<N>>,
     enter: u64,
     first_steps: usize,
+    /// Steps of lanes that were taken.
+    lane_steps: LaneSteps,
 }
 
 impl<N: Lane, M: System<D>, A, const D: usize> Lanes<N, M, A, D> {
@@ -79,6 +86,7 @@ impl<N: Lane, M: System<D>, A, const D: usize> Lanes<N, M, A, D> {
             deadline: u64::MAX,
             enter: 0,
             first_steps: 0,
+            lane_steps: LaneSteps::default(),
         }
     }
 
@@ -186,6 +194,7 @@ impl<N: Lane, M: System<D>, A, const D: usize> Lanes<N, M, A, D> {
                 self.attend(task);
             }
         }
+        T::KERNEL.count(self.lane_steps);
     }
 
     /// Whether motions take their first steps.
@@ -208,9 +217,12 @@ impl<N: Lane, M: System<D>, A, const D: usize> Lanes<N, M, A, D> {
         } else {
             moving.step(&self.system, until, tolerance, &mut self.step);
         }
+        self.lane_steps.all += N::WIDTH as u64;
         if enters {
+            self.lane_steps.with_motion += u64::from(self.enter.count_ones());
             self.end_first_step();
         } else {
+            self.lane_steps.with_motion += u64::from(self.taken.count_ones());
             self.steps += 1;
         }
         !enters

@@ -8,6 +8,7 @@ use crate::lane::{Instructions, Lane, SideBySide, Work};
 
 use super::lanes::{EndedCycle, Lanes, Task};
 use super::measuring::{Kept, MeasureRequest, Measured, batch_ends, measured_alone};
+use super::occupancy::Kernel;
 use super::trajectory::Progress;
 
 /// With no more than one lane in so many taken, cycles are measured faster one motion by one.
@@ -129,6 +130,7 @@ impl<M: System<D>, const D: usize> Underway<M, D> {
 
 impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Measuring<L, M, D> {
     type Kept = Underway<M, D>;
+    const KERNEL: Kernel = Kernel::Measuring;
 
     #[inline(always)]
     fn fill(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>) -> bool {

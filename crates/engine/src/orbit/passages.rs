@@ -9,6 +9,7 @@ use crate::lane::{Dual, Instructions, Lane, Mask, Series, SideBySide, Work, seri
 
 use super::extrema::SignChanges;
 use super::lanes::{EndedCycle, Lanes, Task};
+use super::occupancy::Kernel;
 use super::passage::{Integrator, OneByOne, Passage, Passing, ReturnRequest, told, value_at};
 
 /// With no more than one lane in so many taken, returns are followed faster one by one.
@@ -135,6 +136,7 @@ impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>,
     for Returning<'a, L::Plain, M, D, U>
 {
     type Kept = Underway<M::Event, U>;
+    const KERNEL: Kernel = Kernel::Returns;
 
     #[inline(always)]
     fn fill(&mut self, lanes: &mut Lanes<Dual<L, U>, M, Self::Kept, D>) -> bool {

@@ -8,6 +8,7 @@ use crate::flow::{Event, Motion, Reason, Stroboscopic, System};
 use crate::lane::{Instructions, Lane, SideBySide, Work};
 
 use super::lanes::{EndedCycle, Lanes, Task};
+use super::occupancy::Kernel;
 use super::passage::{PlainRequest, PlainReturn, PlainReturns};
 use super::{Case, Machine};
 
@@ -147,6 +148,7 @@ impl<M: System<D>, const D: usize> Following<'_, M, D> {
 
 impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Following<'_, M, D> {
     type Kept = Followed<M::Event, D>;
+    const KERNEL: Kernel = Kernel::PlainReturns;
 
     #[inline(always)]
     fn fill(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>) -> bool {

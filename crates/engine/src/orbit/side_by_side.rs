@@ -12,6 +12,7 @@ use super::case_end::End;
 use super::known_orbits::KnownOrbits;
 use super::lanes::{EndedCycle, Lanes, Task};
 use super::measure::Found;
+use super::occupancy::Kernel;
 use super::passage::Integrator;
 use super::settling::Settling;
 use super::trajectory::Progress;
@@ -234,6 +235,7 @@ impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
 
 impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Supply<'_, M, D> {
     type Kept = Underway<M, D>;
+    const KERNEL: Kernel = Kernel::Cases;
 
     /// Fills the lanes unless what waits is worth more; nothing is left to follow in lanes when too few would be taken.
     #[inline(always)]

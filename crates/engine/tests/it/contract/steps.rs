@@ -2,9 +2,12 @@
 
 use capsulemap_engine::flow::defect::defect;
 use capsulemap_engine::flow::metric::greater;
-use capsulemap_engine::flow::{Field, Motion, STEPS_PER_CYCLE, Step, Switched, System, cycle};
-use capsulemap_engine::lane::{ORDER, Series, series};
+use capsulemap_engine::flow::{
+    Field, Motion, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System, cycle,
+};
+use capsulemap_engine::lane::{Dual, ORDER, Series, series};
 use capsulemap_engine::orbit::Case;
+use capsulemap_engine::orbit::return_map::{Cycles, returned};
 
 use super::subject::{Subject, count};
 
@@ -84,6 +87,34 @@ pub fn guard_signs<M: Subject<D>, const D: usize>() {
     }
     assert!(steps > 1000, "{steps} steps");
     assert_eq!(events > 300, M::Single::GUARDS > 0, "{events} events");
+}
+
+/// A guard that is written without derivatives has the bits of the one with them.
+pub fn plain_guards<M: Subject<D>, const D: usize>() {
+    let mut compared = 0;
+    for case in M::draws(count(20), 450) {
+        let system = case.system.constant::<Dual<f64, 1>>();
+        let point = M::Single::point(&case.start).map(|x| Dual { value: x, gradient: [1.0] });
+        let cycles = Cycles { count: 3, tolerance: TOLERANCE };
+        // A motion that cannot be followed has been compared as far as it goes.
+        let _ = returned(&system, point, &cycles, |step| {
+            for which in 0..M::Single::GUARDS {
+                let (mut guard, mut room) = (series::zero(), series::zero());
+                let mut plain: Series<f64> = series::zero();
+                system.guard(which, &step.mode, &step.jet, &mut guard);
+                system.plain_guard(which, &step.mode, &step.jet, &mut room, &mut plain);
+                let bits = |series: &Series<f64>| series.map(f64::to_bits);
+                assert_eq!(
+                    bits(&plain),
+                    bits(&series::plain(&guard)),
+                    "{which}: {:?}",
+                    case.system
+                );
+                compared += 1;
+            }
+        });
+    }
+    assert_eq!(compared > 300, M::Single::GUARDS > 0, "{compared} guards");
 }
 
 /// Every step satisfies the equations to the order of the tolerance, relative to the motion.

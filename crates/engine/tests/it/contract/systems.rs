@@ -191,6 +191,11 @@ macro_rules! contract {
             fn guards_keep_their_sign_between_events() {
                 steps::guard_signs::<$system, $coordinates>();
             }
+
+            #[test]
+            fn guards_without_derivatives_have_their_bits() {
+                steps::plain_guards::<$system, $coordinates>();
+            }
             #[test]
             fn steps_satisfy_the_equations() {
                 steps::defects::<$system, $coordinates>();
