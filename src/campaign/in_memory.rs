@@ -19,7 +19,7 @@ pub fn results_in_memory(
         let motions = run::final_motions(study, records);
         let attractors = run::attractors(study, &motions, machine, || ())?;
         let table = run::attractor_table(study, &attractors, &motions, machine)?;
-        add_attractors(&mut results, study, (&attractors, &table));
+        add_attractors(&mut results, study, &attractors, &table);
     }
     Ok(results)
 }

@@ -191,7 +191,7 @@ impl Campaign<'_> {
             table.note_cycles(&attractors, cycles);
         }
         reports.send(Event::Ended(Stage::Linking))?;
-        add_attractors(frame, self.study, (&attractors, &table));
+        add_attractors(frame, self.study, &attractors, &table);
         Ok(())
     }
 

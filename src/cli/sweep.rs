@@ -166,7 +166,7 @@ fn without_cases(study: &Study) -> Dataset {
     if has_attractors(&small) {
         let (axis, of_case) = (linked_axis(&small), vec![None; small.cases()]);
         let unknown = Attractors { axis, of_case, ..Attractors::default() };
-        store::add_attractors(&mut dataset, &small, (&unknown, &AttractorTable::default()));
+        store::add_attractors(&mut dataset, &small, &unknown, &AttractorTable::default());
     }
     dataset
 }

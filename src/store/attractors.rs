@@ -14,14 +14,13 @@ use super::catalogue::{
     EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, INFERRED_ELSEWHERE,
     INFERRED_SAMPLE, Place, edges as edge_entries, section,
 };
+use super::columns::Columns;
 use super::{Dataset, Values, boundary};
-use crate::attractor::{Entropy, Integrity, Share};
-use crate::description::{Description, StateCoordinate};
+use crate::attractor::{Entropy, Integrity};
+use crate::description::{Description, Section};
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
-use crate::run::{
-    AttractorEvent, AttractorRow, AttractorTable, Attractors, Edge, InferredSample, SharesAt,
-};
+use crate::run::{AttractorRow, AttractorTable, Attractors, Edge, InferredSample, SharesAt};
 use crate::study::{Coordinate, Study};
 
 /// Adds to the dataset of a study which attractor each case has ended on, the table of the attractors of starts, and
@@ -32,11 +31,11 @@ use crate::study::{Coordinate, Study};
 pub fn add_attractors(
     dataset: &mut Dataset,
     study: &Study,
-    (attractors, table): (&Attractors, &AttractorTable),
+    attractors: &Attractors,
+    table: &AttractorTable,
 ) {
     let dimensions = study.dimensions();
-    let number = |of: &Option<u32>| of.map_or(-1, i64::from);
-    let numbers = attractors.of_case.iter().map(number).collect();
+    let numbers = attractors.of_case.iter().map(|it| it.map_or(-1, i64::from)).collect();
     let array = ArrayD::from_shape_vec(IxDyn(&study.shape()), numbers).expect("one per case");
     if let Some(axis) = attractors.axis {
         let name = study.axes()[axis].coordinate.name().to_owned();
@@ -58,164 +57,161 @@ pub fn add_attractors(
     }
 }
 
-/// The table of the attractors of starts; a periodic orbit has a section point for each cycle of its period, and what
-/// is not periodic none.
+/// The table of the attractors of starts.
 fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
-    let points = |row: &AttractorRow| match row.attractor.outcome {
-        Outcome::Periodic => row.attractor.points.clone(),
-        _ => Vec::new(),
-    };
-    let longest = rows.iter().map(|row| points(row).len()).max().unwrap_or(0);
-    let model = dataset.model();
     dataset.put_coordinate(ATTRACTOR_INDEX, Values::count(rows.len()));
-    let mut whole = |entry: Entry, of: fn(&AttractorRow) -> i64| {
-        dataset.put_column(entry, Values::integers(rows.iter().map(of).collect()));
-    };
-    whole(ATTRACTOR_KIND, |row| row.attractor.outcome as i64);
-    whole(ATTRACTOR_PERIOD, |row| row.record.orbit.period as i64);
-    whole(ATTRACTOR_CERTIFICATE, |row| row.record.orbit.certificate.proof as i64);
-    whole(ATTRACTOR_CASE, |row| row.attractor.case as i64);
-    whole(ATTRACTOR_CASES, |row| row.share.starts as i64);
+    let mut columns = Columns { dataset, rows };
+    columns.integers(ATTRACTOR_KIND, |row| row.attractor.outcome as i64);
+    columns.integers(ATTRACTOR_PERIOD, |row| row.record.orbit.period as i64);
+    columns.integers(ATTRACTOR_CERTIFICATE, |row| row.record.orbit.certificate.proof as i64);
+    columns.integers(ATTRACTOR_CASE, |row| row.attractor.case as i64);
+    columns.integers(ATTRACTOR_CASES, |row| row.share.starts as i64);
     if rows.iter().any(|row| row.settling.is_some()) {
-        whole(ATTRACTOR_CYCLES_MOST, |row| row.settling.map_or(0, |it| it.most as i64));
+        columns.integers(ATTRACTOR_CYCLES_MOST, |row| row.settling.map_or(0, |it| it.most as i64));
+        columns.reals(ATTRACTOR_CYCLES_MEAN, |row| row.settling.map_or(f64::NAN, |it| it.mean));
     }
-    let mut real = |entry: Entry, of: &dyn Fn(&AttractorRow) -> f64| {
-        dataset.put_column(entry, Values::reals(rows.iter().map(of).collect()));
-    };
-    real(ATTRACTOR_SHARE, &|row| row.share.value);
-    real(ATTRACTOR_SHARE_ERROR, &|row| row.share.error);
-    if rows.iter().all(|row| row.share.interval.is_some()) {
-        let end =
-            |row: &AttractorRow, which: usize| row.share.interval.map_or(f64::NAN, |it| it[which]);
-        real(ATTRACTOR_SHARE_LOW, &|row| end(row, 0));
-        real(ATTRACTOR_SHARE_HIGH, &|row| end(row, 1));
+    add_basins(&mut columns);
+    add_orbits(&mut columns);
+    let model = dataset.model();
+    name_distances(dataset, model);
+}
+
+/// How large the basins of the attractors are.
+fn add_basins(columns: &mut Columns<'_, AttractorRow>) {
+    columns.reals(ATTRACTOR_SHARE, |row| row.share.value);
+    columns.reals(ATTRACTOR_SHARE_ERROR, |row| row.share.error);
+    if columns.rows.iter().all(|row| row.share.interval.is_some()) {
+        for (which, entry) in [ATTRACTOR_SHARE_LOW, ATTRACTOR_SHARE_HIGH].into_iter().enumerate() {
+            columns.reals(entry, |row| row.share.interval.map_or(f64::NAN, |ends| ends[which]));
+        }
     }
-    if rows.iter().all(|row| row.integrity.is_some()) {
-        let of = |row: &AttractorRow, which: fn(&Integrity) -> f64| {
-            row.integrity.as_ref().map_or(f64::NAN, which)
-        };
-        real(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, &|row| row.shock);
-        real(ATTRACTOR_INTEGRITY_FACTOR, &|row| of(row, |it| it.factor));
-        real(ATTRACTOR_INTEGRITY_ERROR, &|row| of(row, |it| it.error));
+    if columns.rows.iter().all(|row| row.integrity.is_some()) {
+        columns.reals(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, |row| row.shock);
+        columns.reals(ATTRACTOR_INTEGRITY_FACTOR, |row| factor(&row.integrity));
+        columns.reals(ATTRACTOR_INTEGRITY_ERROR, |row| error(&row.integrity));
     }
-    if rows.iter().any(|row| row.settling.is_some()) {
-        real(ATTRACTOR_CYCLES_MEAN, &|row| row.settling.map_or(f64::NAN, |it| it.mean));
-    }
+}
+
+fn factor(integrity: &Option<Integrity>) -> f64 {
+    integrity.as_ref().map_or(f64::NAN, |it| it.factor)
+}
+
+fn error(integrity: &Option<Integrity>) -> f64 {
+    integrity.as_ref().map_or(f64::NAN, |it| it.error)
+}
+
+/// The orbits of the attractors: outputs, multipliers and section points.
+fn add_orbits(columns: &mut Columns<'_, AttractorRow>) {
+    let model = columns.dataset.model();
     for output in model.outputs() {
         let entry = Place::Attractor.of(Entry::of_output(output));
-        real(entry, &|row| row.record.orbit.outputs[output]);
+        columns.reals(entry, |row| row.record.orbit.outputs[output]);
     }
-    name_distances(dataset, model);
-    let several = |width: usize, of: &dyn Fn(&AttractorRow, usize) -> f64| {
-        let numbers = rows.iter().flat_map(|row| (0..width).map(move |at| of(row, at))).collect();
-        Values::Real(ArrayD::from_shape_vec(IxDyn(&[rows.len(), width]), numbers).expect("a table"))
-    };
-    fn multipliers(row: &AttractorRow) -> &[Complex] {
-        &row.record.orbit.certificate.multipliers
-    }
-    let real_parts = several(multipliers(&rows[0]).len(), &|row, at| multipliers(row)[at].re);
-    let imaginary = several(multipliers(&rows[0]).len(), &|row, at| multipliers(row)[at].im);
-    dataset.put_column(ATTRACTOR_MULTIPLIER_REAL, real_parts);
-    dataset.put_column(ATTRACTOR_MULTIPLIER_IMAG, imaginary);
+    let count = multipliers(&columns.rows[0]).len();
+    columns.several(ATTRACTOR_MULTIPLIER_REAL, count, |row, at| multipliers(row)[at].re);
+    columns.several(ATTRACTOR_MULTIPLIER_IMAG, count, |row, at| multipliers(row)[at].im);
+    let longest = columns.rows.iter().map(|row| points(row).len()).max().unwrap_or(0);
     if longest > 0 {
-        dataset.put_coordinate(ATTRACTOR_CYCLE, Values::count(longest));
-        for (i, entry) in section(dataset.model()).into_iter().enumerate() {
-            let of = |row: &AttractorRow, cycle: usize| {
+        columns.dataset.put_coordinate(ATTRACTOR_CYCLE, Values::count(longest));
+        for (i, entry) in section(model).into_iter().enumerate() {
+            columns.several(Place::Attractor.of(entry), longest, |row, cycle| {
                 points(row).get(cycle).map_or(f64::NAN, |it| it[i])
-            };
-            dataset.put_column(Place::Attractor.of(entry), several(longest, &of));
+            });
         }
+    }
+}
+
+fn multipliers(row: &AttractorRow) -> &[Complex] {
+    &row.record.orbit.certificate.multipliers
+}
+
+/// A periodic orbit has a section point for each cycle of its period, and what is not periodic none.
+fn points(row: &AttractorRow) -> &[Section] {
+    match row.attractor.outcome {
+        Outcome::Periodic => &row.attractor.points,
+        _ => &[],
     }
 }
 
 /// The saddles between basins.
 fn add_edges(dataset: &mut Dataset, edges: &[Edge]) {
+    let model = dataset.model();
     dataset.put_coordinate(EDGE_INDEX, Values::count(edges.len()));
-    let mut whole = |entry: Entry, of: fn(&Edge) -> i64| {
-        dataset.put_column(entry, Values::integers(edges.iter().map(of).collect()));
-    };
-    whole(EDGE_LOW, |edge| i64::from(edge.between[0]));
-    whole(EDGE_HIGH, |edge| i64::from(edge.between[1]));
-    whole(EDGE_PERIOD, |edge| edge.saddle.points.len() as i64);
-    let residuals = edges.iter().map(|edge| edge.saddle.residual).collect();
-    dataset.put_column(EDGE_RESIDUAL, Values::reals(residuals));
-    let several = |width: usize, of: &dyn Fn(&Edge, usize) -> f64| {
-        let numbers =
-            edges.iter().flat_map(|edge| (0..width).map(move |at| of(edge, at))).collect();
-        Values::Real(
-            ArrayD::from_shape_vec(IxDyn(&[edges.len(), width]), numbers).expect("a table"),
-        )
-    };
+    let mut columns = Columns { dataset, rows: edges };
+    columns.integers(EDGE_LOW, |edge| i64::from(edge.between[0]));
+    columns.integers(EDGE_HIGH, |edge| i64::from(edge.between[1]));
+    columns.integers(EDGE_PERIOD, |edge| edge.saddle.points.len() as i64);
+    columns.reals(EDGE_RESIDUAL, |edge| edge.saddle.residual);
     let count = edges[0].saddle.multipliers.len();
-    let real_parts = several(count, &|edge, at| edge.saddle.multipliers[at].re);
-    let imaginary = several(count, &|edge, at| edge.saddle.multipliers[at].im);
-    dataset.put_column(EDGE_MULTIPLIER_REAL, real_parts);
-    dataset.put_column(EDGE_MULTIPLIER_IMAG, imaginary);
+    columns.several(EDGE_MULTIPLIER_REAL, count, |edge, at| edge.saddle.multipliers[at].re);
+    columns.several(EDGE_MULTIPLIER_IMAG, count, |edge, at| edge.saddle.multipliers[at].im);
     let longest = edges.iter().map(|edge| edge.saddle.points.len()).max().unwrap_or(1);
-    dataset.put_coordinate(EDGE_CYCLE, Values::count(longest));
-    for (i, entry) in edge_entries(dataset.model()).into_iter().enumerate() {
-        let of = |edge: &Edge, at: usize| edge.saddle.points.get(at).map_or(f64::NAN, |it| it[i]);
-        dataset.put_column(entry, several(longest, &of));
+    columns.dataset.put_coordinate(EDGE_CYCLE, Values::count(longest));
+    for (i, entry) in edge_entries(model).into_iter().enumerate() {
+        columns.several(entry, longest, |edge, cycle| {
+            edge.saddle.points.get(cycle).map_or(f64::NAN, |it| it[i])
+        });
     }
 }
 
 /// The shares along an axis, and what each attractor is there: period 0 and undecided where no start leads to it.
 fn add_shares(dataset: &mut Dataset, axis: &str, along: &[SharesAt]) {
-    let count = along.first().map_or(0, |at| at.shares.len());
-    if count == 0 {
+    let attractors = along.first().map_or(0, |at| at.shares.len());
+    if attractors == 0 {
         return;
     }
-    let (shape, dimensions) = (IxDyn(&[along.len(), count]), [axis, ATTRACTOR_INDEX.name]);
-    dataset.put_coordinate(ATTRACTOR_INDEX, Values::count(count));
-    let mut real = |entry: Entry, of: fn(&Share) -> f64| {
-        let numbers = along.iter().flat_map(|at| at.shares.iter().map(of)).collect();
-        let numbers = ArrayD::from_shape_vec(shape.clone(), numbers).expect("one per attractor");
-        dataset.put(entry, &dimensions, Values::Real(numbers));
-    };
-    real(ATTRACTOR_SHARE, |share| share.value);
-    real(ATTRACTOR_SHARE_ERROR, |share| share.error);
+    dataset.put_coordinate(ATTRACTOR_INDEX, Values::count(attractors));
+    let mut columns = AlongAxis { dataset, axis, along, attractors };
+    columns.reals(ATTRACTOR_SHARE, |at, i| at.shares[i].value);
+    columns.reals(ATTRACTOR_SHARE_ERROR, |at, i| at.shares[i].error);
+    columns.integers(ATTRACTOR_KIND, |at, i| {
+        at.motions[i].map_or(Outcome::Undecided, |(outcome, _)| outcome) as i64
+    });
+    columns.integers(ATTRACTOR_PERIOD, |at, i| {
+        at.motions[i].map_or(0, |(_, period)| i64::from(period))
+    });
     if along.iter().any(|at| at.integrity.iter().any(Option::is_some)) {
-        let mut room = |entry: Entry, of: fn(&Integrity) -> f64| {
-            let all = along.iter().flat_map(|at| &at.integrity);
-            let numbers = all.map(|it| it.as_ref().map_or(f64::NAN, of)).collect();
-            let numbers =
-                ArrayD::from_shape_vec(shape.clone(), numbers).expect("one per attractor");
-            dataset.put(entry, &dimensions, Values::Real(numbers));
-        };
-        room(ATTRACTOR_INTEGRITY_FACTOR, |it| it.factor);
-        room(ATTRACTOR_INTEGRITY_ERROR, |it| it.error);
-        let shocks = along.iter().flat_map(|at| at.shock.iter().copied()).collect();
-        let shocks = ArrayD::from_shape_vec(shape.clone(), shocks).expect("one per attractor");
-        dataset.put(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, &dimensions, Values::Real(shocks));
+        columns.reals(ATTRACTOR_INTEGRITY_FACTOR, |at, i| factor(&at.integrity[i]));
+        columns.reals(ATTRACTOR_INTEGRITY_ERROR, |at, i| error(&at.integrity[i]));
+        columns.reals(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, |at, i| at.shock[i]);
         let model = dataset.model();
         name_distances(dataset, model);
     }
-    let mut whole = |entry: Entry, of: fn(&Option<(Outcome, u32)>) -> i64| {
-        let numbers = along.iter().flat_map(|at| at.motions.iter().map(of)).collect();
-        let numbers = ArrayD::from_shape_vec(shape.clone(), numbers).expect("one per attractor");
-        dataset.put(entry, &dimensions, Values::Integer(numbers));
-    };
-    whole(ATTRACTOR_KIND, |it| it.map_or(Outcome::Undecided, |it| it.0) as i64);
-    whole(ATTRACTOR_PERIOD, |it| it.map_or(0, |it| i64::from(it.1)));
+}
+
+/// The attractors at each value along an axis, of which variables over the axis and the attractors are put into a dataset.
+struct AlongAxis<'a> {
+    dataset: &'a mut Dataset,
+    axis: &'a str,
+    along: &'a [SharesAt],
+    attractors: usize,
+}
+
+impl AlongAxis<'_> {
+    fn reals(&mut self, entry: Entry, of: impl Fn(&SharesAt, usize) -> f64) {
+        let values = Values::Real(self.array(of));
+        self.dataset.put(entry, &[self.axis, ATTRACTOR_INDEX.name], values);
+    }
+
+    fn integers(&mut self, entry: Entry, of: impl Fn(&SharesAt, usize) -> i64) {
+        let values = Values::Integer(self.array(of));
+        self.dataset.put(entry, &[self.axis, ATTRACTOR_INDEX.name], values);
+    }
+
+    fn array<T>(&self, of: impl Fn(&SharesAt, usize) -> T) -> ArrayD<T> {
+        let shape = IxDyn(&[self.along.len(), self.attractors]);
+        ArrayD::from_shape_fn(shape, |place| of(&self.along[place[0]], place[1]))
+    }
 }
 
 /// What is known of the basins as a whole.
 fn add_measures(dataset: &mut Dataset, table: &AttractorTable) {
-    let mut real = |entry: Entry, value: f64| {
-        dataset.put(entry, &[], Values::Real(ArrayD::from_elem(IxDyn(&[]), value)));
-    };
-    if let Some(Entropy { basin, boundary, .. }) = table.entropy {
-        real(BASIN_ENTROPY, basin.value);
-        real(BASIN_ENTROPY_ERROR, basin.error);
-        real(BOUNDARY_BASIN_ENTROPY, boundary.value);
-        real(BOUNDARY_BASIN_ENTROPY_ERROR, boundary.error);
-    }
-    let mut whole = |entry: Entry, number: usize| {
-        let number = ArrayD::from_elem(IxDyn(&[]), number as i64);
-        dataset.put(entry, &[], Values::Integer(number));
-    };
-    if let Some(Entropy { side, .. }) = table.entropy {
-        whole(BASIN_ENTROPY_BOX, side);
+    if let Some(Entropy { basin, boundary, side }) = &table.entropy {
+        dataset.put(BASIN_ENTROPY, &[], Values::real(basin.value));
+        dataset.put(BASIN_ENTROPY_ERROR, &[], Values::real(basin.error));
+        dataset.put(BOUNDARY_BASIN_ENTROPY, &[], Values::real(boundary.value));
+        dataset.put(BOUNDARY_BASIN_ENTROPY_ERROR, &[], Values::real(boundary.error));
+        dataset.put(BASIN_ENTROPY_BOX, &[], Values::integer(*side as i64));
     }
     if let Some(uncertainty) = &table.uncertainty {
         boundary::add(dataset, uncertainty);
@@ -228,43 +224,35 @@ fn add_measures(dataset: &mut Dataset, table: &AttractorTable) {
 /// Adds how many of a sample of inferred cases are not as was inferred.
 pub fn add_sample(dataset: &mut Dataset, sample: InferredSample) {
     let InferredSample { cases, elsewhere } = sample;
-    for (entry, number) in [(INFERRED_SAMPLE, cases), (INFERRED_ELSEWHERE, elsewhere)] {
-        let number = ArrayD::from_elem(IxDyn(&[]), number as i64);
-        dataset.put(entry, &[], Values::Integer(number));
-    }
+    dataset.put(INFERRED_SAMPLE, &[], Values::integer(cases as i64));
+    dataset.put(INFERRED_ELSEWHERE, &[], Values::integer(elsewhere as i64));
 }
 
 fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
     let events = &attractors.events;
     dataset.put_coordinate(EVENT, Values::count(events.len()));
-    let mut whole = |entry: Entry, of: fn(&AttractorEvent) -> i64| {
-        let values = Values::integers(events.iter().map(of).collect());
-        dataset.put_column(entry, values);
-    };
-    whole(EVENT_KIND, |event| event.kind as i64);
-    whole(EVENT_ATTRACTOR, |event| i64::from(event.attractor));
-    whole(EVENT_PERIOD, |event| event.period as i64);
     let sections = section(dataset.model());
-    let mut real = |entry: Entry, of: &dyn Fn(&AttractorEvent) -> f64| {
-        let values = Values::reals(events.iter().map(of).collect());
-        dataset.put_column(entry, values);
-    };
+    let mut columns = Columns { dataset, rows: events };
+    columns.integers(EVENT_KIND, |event| event.kind as i64);
+    columns.integers(EVENT_ATTRACTOR, |event| i64::from(event.attractor));
+    columns.integers(EVENT_PERIOD, |event| event.period as i64);
     for (place, axis) in study.axes().iter().enumerate() {
-        if let Coordinate::Parameter(parameter) = axis.coordinate {
-            let at = |event: &AttractorEvent| match attractors.axis == Some(place) {
-                true => event.value,
-                false => study.case(event.case).parameters[parameter],
-            };
-            real(Place::Event.of(Entry::of_parameter(parameter)), &at);
-        }
+        let Coordinate::Parameter(parameter) = axis.coordinate else { continue };
+        let entry = Place::Event.of(Entry::of_parameter(parameter));
+        columns.reals(entry, |event| match attractors.axis == Some(place) {
+            true => event.value,
+            false => study.case(event.case).parameters[parameter],
+        });
     }
     for (i, entry) in sections.into_iter().enumerate() {
-        real(Place::Event.of(entry), &|event| event.section[i]);
+        columns.reals(Place::Event.of(entry), |event| event.section[i]);
     }
-    let uncertainties = events.iter().map(|event| event.uncertainty).collect();
+    columns.reals(EVENT_UNCERTAINTY, |event| event.uncertainty);
     let coordinate = attractors.axis.map(|axis| study.axes()[axis].coordinate);
     let unit = coordinate.map_or("1", |coordinate| coordinate.dimension().unit());
-    dataset.put_column(EVENT_UNCERTAINTY, Values::reals(uncertainties)).unit = unit.to_owned();
+    if let Some(uncertainty) = dataset.variables.get_mut(EVENT_UNCERTAINTY.name) {
+        uncertainty.unit = unit.to_owned();
+    }
 }
 
 /// Says of the distances between section points in what they are, and in which unit, as the model compares them.
@@ -274,9 +262,9 @@ fn name_distances(dataset: &mut Dataset, model: &'static Description) {
         all => all.join(", "),
     };
     // A coordinate that is compared as it is has the unit of the distance.
-    let as_it_is = |(it, words): &(StateCoordinate, &&str)| it.name() == **words;
     let mut coordinates = model.section_coordinates().zip(model.compared_as);
-    let unit = coordinates.find(as_it_is).map(|(it, _)| it.start().dimension.unit());
+    let as_it_is = coordinates.find(|(it, words)| it.name() == **words);
+    let unit = as_it_is.map(|(it, _)| it.start().dimension.unit());
     for entry in
         [ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_INTEGRITY_FACTOR, ATTRACTOR_INTEGRITY_ERROR]
     {

@@ -133,7 +133,7 @@ pub fn write(
 ) -> Result<(), StoreError> {
     let path = path(folder, block.number);
     let image = image(fingerprint, block, columns);
-    let image = image.map_err(|said| StoreError::system(&path, "packing", said))?;
+    let image = image.map_err(StoreError::system(&path, "packing"))?;
     file::put(&path, &image)
 }
 
@@ -141,16 +141,16 @@ pub fn write(
 pub fn image(fingerprint: &str, block: Summary, columns: &[Column]) -> io::Result<Vec<u8>> {
     let packed: Vec<Vec<u8>> =
         columns.iter().map(|column| pack(&column.numbers)).collect::<io::Result<_>>()?;
-    let place = |(column, packed): (&Column, &Vec<u8>)| Place {
+    let places = columns.iter().zip(&packed).map(|(column, packed)| Place {
         name: column.name.clone(),
         range: column.numbers.range(),
         bytes: packed.len() as u64,
-    };
+    });
     let head = Head {
         fingerprint: fingerprint.to_owned(),
         block,
         provenance: provenance::attributes(),
-        columns: columns.iter().zip(&packed).map(place).collect(),
+        columns: places.collect(),
     };
     let mut image = format!("{FORMAT}\n{}\n", serde_json::to_string(&head)?).into_bytes();
     packed.iter().for_each(|column| image.extend_from_slice(column));
@@ -204,18 +204,20 @@ fn refused(error: io::Error) -> Unusable {
 /// The head of a block file, and where the first column begins.
 fn read_head(file: File) -> Result<(Head, u64), Unusable> {
     let mut reader = BufReader::new(file);
-    let mut line = || {
-        let mut line = Vec::new();
-        let read = reader.by_ref().take(LONGEST_HEAD).read_until(b'\n', &mut line);
-        read.map(|bytes| (line, bytes as u64)).map_err(Unusable::Refused)
-    };
-    let (format, first) = line()?;
+    let format = read_line(&mut reader)?;
     if format.strip_suffix(b"\n") != Some(FORMAT.as_bytes()) {
         return Err(Unusable::Torn);
     }
-    let (head, second) = line()?;
-    let head = serde_json::from_slice(&head).map_err(|_| Unusable::Torn)?;
-    Ok((head, first + second))
+    let line = read_line(&mut reader)?;
+    let head = serde_json::from_slice(&line).map_err(|_| Unusable::Torn)?;
+    Ok((head, (format.len() + line.len()) as u64))
+}
+
+/// A line of a head, with its end.
+fn read_line(reader: &mut BufReader<File>) -> Result<Vec<u8>, Unusable> {
+    let mut line = Vec::new();
+    let read = reader.take(LONGEST_HEAD).read_until(b'\n', &mut line);
+    read.map(|_| line).map_err(Unusable::Refused)
 }
 
 /// Why a block file is not of this study, version and number, if it is not.
@@ -235,21 +237,34 @@ impl BlockFile {
     ///
     /// Fails if the file cannot be read, or holds another count of numbers; no more memory is taken than for those asked.
     pub fn column(&self, name: &str, width: usize) -> Result<Option<Numbers>, StoreError> {
-        let failed = |said| StoreError::system(&self.path, "reading", said);
-        let columns = &self.head.columns;
-        let Some(at) = columns.iter().position(|column| column.name == name) else {
+        let Some(at) = self.head.columns.iter().position(|column| column.name == name) else {
             return Ok(None);
         };
-        let mut file = File::open(&self.path).map_err(failed)?;
-        let before = columns[..at].iter().map(|column| column.bytes);
-        let begin = before.fold(self.begin, u64::saturating_add);
-        file.seek(SeekFrom::Start(begin)).map_err(failed)?;
-        let (bytes, real) = (columns[at].bytes, columns[at].range.is_none());
         let count = self.head.block.computed.saturating_mul(width);
-        match unpack(file.take(bytes), (count, real)).map_err(failed)? {
+        match self.unpack(at, count).map_err(StoreError::system(&self.path, "reading"))? {
             None => Err(StoreError::Damaged { path: self.path.clone() }),
             numbers => Ok(numbers),
         }
+    }
+
+    /// So many numbers of the column at a place; none if there is another count.
+    fn unpack(&self, at: usize, count: usize) -> io::Result<Option<Numbers>> {
+        let columns = &self.head.columns;
+        let mut file = File::open(&self.path)?;
+        let before = columns[..at].iter().map(|column| column.bytes);
+        file.seek(SeekFrom::Start(before.fold(self.begin, u64::saturating_add)))?;
+        let mut bytes = Vec::new();
+        let most = (count as u64).saturating_mul(8);
+        let packed = file.take(columns[at].bytes);
+        ZlibDecoder::new(packed).take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+        if bytes.len() as u64 != most {
+            return Ok(None);
+        }
+        let (numbers, _) = bytes.as_chunks::<8>();
+        Ok(Some(match columns[at].range {
+            None => Numbers::Real(numbers.iter().map(|it| f64::from_le_bytes(*it)).collect()),
+            Some(_) => Numbers::Integer(numbers.iter().map(|it| i64::from_le_bytes(*it)).collect()),
+        }))
     }
 
     /// The numbers of a column of reals, of which each case has so many.
@@ -291,8 +306,8 @@ impl Numbers {
     /// The least and the greatest of integers, the other way round if there are none; none for reals.
     fn range(&self) -> Option<[i64; 2]> {
         let Numbers::Integer(all) = self else { return None };
-        let wider = |[low, high]: [i64; 2], it: &i64| [low.min(*it), high.max(*it)];
-        Some(all.iter().fold([i64::MAX, i64::MIN], wider))
+        let none = [i64::MAX, i64::MIN];
+        Some(all.iter().fold(none, |[low, high], it| [low.min(*it), high.max(*it)]))
     }
 }
 
@@ -308,21 +323,6 @@ fn pack(numbers: &Numbers) -> io::Result<Vec<u8>> {
         }
     }
     encoder.into_inner()?.finish()
-}
-
-/// So many numbers; none if there is another count.
-fn unpack(packed: impl Read, (count, real): (usize, bool)) -> io::Result<Option<Numbers>> {
-    let mut bytes = Vec::new();
-    let most = (count as u64).saturating_mul(8);
-    ZlibDecoder::new(packed).take(most.saturating_add(1)).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 != most {
-        return Ok(None);
-    }
-    let (numbers, _) = bytes.as_chunks::<8>();
-    Ok(Some(match real {
-        true => Numbers::Real(numbers.iter().map(|it| f64::from_le_bytes(*it)).collect()),
-        false => Numbers::Integer(numbers.iter().map(|it| i64::from_le_bytes(*it)).collect()),
-    }))
 }
 
 #[cfg(test)]

@@ -33,6 +33,8 @@ const LOCK: &str = "lock";
 const TRIES: u32 = 10;
 /// Time between two tries.
 const PAUSE: Duration = Duration::from_millis(100);
+/// What is done when the blocks of a file that is complete are removed.
+const REMOVING: &str = "removing the joined blocks";
 /// Lines that are shown of a change of the study.
 const LINES_SHOWN: usize = 6;
 
@@ -73,10 +75,9 @@ impl BlockFolder {
         company: Company,
         replace: bool,
     ) -> Result<BlockFolder, StoreError> {
-        let failed = |doing| move |said| StoreError::system(path, doing, said);
         let only_reads = company == Company::Anybody;
-        let holds_others =
-            !only_reads && holds_others(path).map_err(failed("looking for blocks"))?;
+        let holds_others = !only_reads
+            && holds_others(path).map_err(StoreError::system(path, "looking for blocks"))?;
         // In a folder of others not even a lock is left.
         if holds_others && !Self::is_begun(path) {
             return Err(StoreError::Occupied { folder: path.to_owned() });
@@ -103,7 +104,7 @@ impl BlockFolder {
         }
         if company == Company::Alone {
             discard_unfinished_in(path, |of, _| is_own(of))
-                .map_err(failed("clearing away unfinished blocks"))?;
+                .map_err(StoreError::system(path, "clearing away unfinished blocks"))?;
         }
         Ok(folder)
     }
@@ -130,7 +131,7 @@ impl BlockFolder {
         let begun = match fs::read(&path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
-            Err(said) => return Err(StoreError::system(&path, "reading", said)),
+            Err(said) => return Err(StoreError::system(&path, "reading")(said)),
         };
         // If it is lost or cannot be read, the heads of the blocks decide.
         let Ok(begun) = serde_json::from_slice::<Begun>(&begun) else {
@@ -151,23 +152,23 @@ impl BlockFolder {
 
     /// What tells blocks of another study or program from those of this one; none where there are none.
     fn foreign_blocks(&self, study: &Study) -> Option<Vec<String>> {
-        let is_foreign = |number| matches!(self.head(number), Err(Unusable::Foreign(_)));
         let older = fs::read_to_string(self.path.join(STUDY)).unwrap_or_default();
-        (0..study.blocks()).any(is_foreign).then(|| {
+        (0..study.blocks()).any(|number| self.is_foreign(number)).then(|| {
             let said =
                 format!("{BEGUN} is lost, and blocks are there of another study or program:");
             std::iter::once(said).chain(changed_lines(&older, &study.text)).collect()
         })
     }
 
+    fn is_foreign(&self, block: usize) -> bool {
+        matches!(self.head(block), Err(Unusable::Foreign(_)))
+    }
+
     /// Writes study and fingerprint, and removes the blocks of other studies.
     fn begin(&self, now: &Begun, study: &Study) -> Result<(), StoreError> {
-        let failed =
-            |said| StoreError::system(&self.path, "beginning the folder of the blocks", said);
-        for number in 0..study.blocks() {
-            if let Err(Unusable::Foreign(_)) = self.head(number) {
-                remove_if_there(&self.file(number)).map_err(failed)?;
-            }
+        let failed = StoreError::system(&self.path, "beginning the folder of the blocks");
+        for number in (0..study.blocks()).filter(|number| self.is_foreign(*number)) {
+            remove_if_there(&self.file(number)).map_err(failed)?;
         }
         let begun = serde_json::to_vec_pretty(now).map_err(io::Error::from).map_err(failed)?;
         put(&self.path.join(STUDY), study.text.as_bytes())?;
@@ -206,27 +207,23 @@ impl BlockFolder {
     ///
     /// What says that the folder is one of blocks goes last, so that a later run finds what is left and removes it.
     pub fn remove(mut self) -> Result<(), StoreError> {
-        let failed =
-            |path: &Path, said| StoreError::system(path, "removing the joined blocks", said);
-        let entries = fs::read_dir(&self.path).map_err(|said| failed(&self.path, said))?;
+        let entries = fs::read_dir(&self.path).map_err(StoreError::system(&self.path, REMOVING))?;
         for path in entries.flatten().map(|entry| entry.path()) {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             if is_own(&name) && ![LOCK, BEGUN].contains(&&*name) {
-                remove_if_there(&path).map_err(|said| failed(&path, said))?;
+                remove_joined(&path)?;
             }
         }
-        let begun = self.path.join(BEGUN);
-        remove_if_there(&begun).map_err(|said| failed(&begun, said))?;
+        remove_joined(&self.path.join(BEGUN))?;
         // A network disk does not remove a file that is open.
         drop(self.lock.take());
-        let lock = self.path.join(LOCK);
-        remove_if_there(&lock).map_err(|said| failed(&lock, said))?;
+        remove_joined(&self.path.join(LOCK))?;
         if self.path.is_symlink() {
             return Ok(());
         }
         match fs::remove_dir(&self.path) {
             Err(said) if said.kind() != io::ErrorKind::DirectoryNotEmpty => {
-                Err(failed(&self.path, said))
+                Err(StoreError::system(&self.path, REMOVING)(said))
             }
             _ => Ok(()),
         }
@@ -248,9 +245,15 @@ fn holds_others(path: &Path) -> io::Result<bool> {
 
 /// Whether a file in a folder of blocks, by its name, is one of this program, finished or not.
 fn is_own(name: &str) -> bool {
-    let is_finished =
-        |name: &str| [BEGUN, STUDY, LOCK].contains(&name) || block_file::is_block(name);
     is_finished(name) || file::unfinished(name).is_some_and(is_finished)
+}
+
+fn is_finished(name: &str) -> bool {
+    [BEGUN, STUDY, LOCK].contains(&name) || block_file::is_block(name)
+}
+
+fn remove_joined(path: &Path) -> Result<(), StoreError> {
+    remove_if_there(path).map_err(StoreError::system(path, REMOVING))
 }
 
 /// Removes a file; another task may have done so already.
@@ -272,10 +275,10 @@ pub fn packed_bytes(study: &Study, records: &[Record]) -> io::Result<usize> {
 /// are written completely or not at all without them too.
 fn lock(path: &Path, company: Company) -> Result<Option<File>, StoreError> {
     let file = path.join(LOCK);
-    let failed = |said| StoreError::system(&file, "taking the lock", said);
+    let failed = StoreError::system(&file, "taking the lock");
     for tried in 1.. {
         fs::create_dir_all(path)
-            .map_err(|said| StoreError::system(path, "making the folder of the blocks", said))?;
+            .map_err(StoreError::system(path, "making the folder of the blocks"))?;
         // On network disks a lock needs a file open for writing, and a shared lock one open for reading.
         let mut options = File::options();
         let opened = options.create(true).read(true).write(true).truncate(false).open(&file);
@@ -304,10 +307,10 @@ fn summary(study: &Study, number: usize, records: &[Record]) -> Summary {
     let mut outcomes = BTreeMap::new();
     let cases = if study.refine.is_some() { study.cases_of_block(number) } else { records.len() };
     let own = if study.refine.is_some() { study.block_cases(number) } else { Vec::new() };
-    let is_own =
-        |record: &Record| study.refine.is_none() || own.binary_search(&record.index).is_ok();
-    for record in records.iter().filter(|record| is_own(record)) {
-        *outcomes.entry(record.orbit.outcome.name().to_owned()).or_default() += 1;
+    for record in records {
+        if study.refine.is_none() || own.binary_search(&record.index).is_ok() {
+            *outcomes.entry(record.orbit.outcome.name().to_owned()).or_default() += 1;
+        }
     }
     let cycles = records.iter().map(|record| record.orbit.cycles).sum();
     Summary { number, cases, computed: records.len(), outcomes, cycles }
@@ -334,8 +337,7 @@ fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
         study.base.model().rest_share().filter(|rest_share| !study.outputs.contains(rest_share));
     // What tells the cases of a refined map apart is whether they are always at rest, too, whatever outputs are kept.
     if let (Some(Refine::Outputs(_)), Some(rest_share)) = (&study.refine, left_out) {
-        let shares = records.iter().map(|record| record.orbit.outputs[rest_share]).collect();
-        columns.push(Column { name: rest_share.name().to_owned(), numbers: Numbers::Real(shares) });
+        columns.push(reals(rest_share.name(), records, |it| it.orbit.outputs[rest_share]));
     }
     columns.extend(beyond_variables(study.base.model(), records));
     columns
@@ -344,29 +346,26 @@ fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
 /// The columns of a block that are no variables of the results.
 fn beyond_variables(model: &'static Description, records: &[Record]) -> Vec<Column> {
     let mut columns = Vec::new();
-    let mut add = |name: &str, of: &dyn Fn(&Record) -> f64| {
-        let numbers = Numbers::Real(records.iter().map(of).collect());
-        columns.push(Column { name: name.to_owned(), numbers });
-    };
     for (coordinate, start) in model.start_coordinates().zip(starts(model)) {
-        add(start.name, &|it| it.start[coordinate]);
+        columns.push(reals(start.name, records, |it| it.start[coordinate]));
     }
     for (coordinate, end) in model.section_coordinates().zip(end(model)) {
-        add(end.name, &|it| it.orbit.end[coordinate]);
+        columns.push(reals(end.name, records, |it| it.orbit.end[coordinate]));
     }
-    add(RESIDUAL.name, &|it| it.orbit.certificate.residual);
+    columns.push(reals(RESIDUAL.name, records, |it| it.orbit.certificate.residual));
     columns
+}
+
+/// A column of a quantity of each record.
+fn reals(name: &str, records: &[Record], of: impl Fn(&Record) -> f64) -> Column {
+    let numbers = Numbers::Real(records.iter().map(of).collect());
+    Column { name: name.to_owned(), numbers }
 }
 
 /// The lines that only one of two texts has, those of the older first.
 fn changed_lines(older: &str, newer: &str) -> Vec<String> {
-    let only = |a: &str, b: &str, mark: &str| -> Vec<String> {
-        let others: Vec<&str> = b.lines().map(str::trim).collect();
-        let lines = a.lines().map(str::trim).filter(|line| !others.contains(line));
-        lines.map(|line| format!("  {mark} {line}")).collect()
-    };
-    let mut lines = only(older, newer, "-");
-    lines.extend(only(newer, older, "+"));
+    let mut lines = lines_without(newer, older, "-");
+    lines.extend(lines_without(older, newer, "+"));
     let more = lines.len().saturating_sub(LINES_SHOWN);
     lines.truncate(LINES_SHOWN);
     lines.extend((more > 0).then(|| format!("  and {more} lines more")));
@@ -376,11 +375,21 @@ fn changed_lines(older: &str, newer: &str) -> Vec<String> {
     lines
 }
 
+/// The lines of a text that another lacks, each behind a mark.
+fn lines_without(other: &str, text: &str, mark: &str) -> Vec<String> {
+    let others: Vec<&str> = other.lines().map(str::trim).collect();
+    let lines = text.lines().map(str::trim).filter(|line| !others.contains(line));
+    lines.map(|line| format!("  {mark} {line}")).collect()
+}
+
 /// Cases by outcome in the order of the outcomes, those that occur.
 pub fn by_outcome(summaries: &[Summary]) -> Vec<(Outcome, usize)> {
-    let count = |outcome: Outcome| {
-        let of = |it: &Summary| it.outcomes.get(outcome.name()).copied().unwrap_or(0);
-        (outcome, summaries.iter().map(of).sum())
-    };
-    Outcome::ALL.iter().map(|&outcome| count(outcome)).filter(|(_, count)| *count > 0).collect()
+    let mut occurring = Vec::new();
+    for outcome in Outcome::ALL {
+        let count = summaries.iter().filter_map(|it| it.outcomes.get(outcome.name())).sum();
+        if count > 0 {
+            occurring.push((outcome, count));
+        }
+    }
+    occurring
 }

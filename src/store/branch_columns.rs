@@ -1,12 +1,10 @@
 //! The columns that every orbit on a branch has, at the points of the branches and at their special points.
 
-use ndarray::{ArrayD, IxDyn};
-
+use super::Dataset;
 use super::catalogue::{BRANCH_CYCLE, Entry, OrbitColumns, Place, section};
-use super::{Dataset, Values};
+use super::columns::Columns;
 use crate::description::{Output, Parameter};
 use crate::motion::branch::Point;
-use crate::orbit::matrix::Complex;
 
 /// An orbit on a branch.
 pub struct Row<'a> {
@@ -27,63 +25,56 @@ impl Row<'_> {
     }
 }
 
-/// Adds the columns of every orbit on a branch at a `place`; a parameter that does not vary on a branch is NaN.
-pub fn add_points(
-    dataset: &mut Dataset,
-    (place, own): (Place, &OrbitColumns),
-    rows: &[Row<'_>],
-    along: &[Parameter],
-    outputs: &[Output],
-) {
-    let mut whole = |entry: Entry, of: fn(&Row<'_>) -> i64| {
-        dataset.put_column(entry, Values::integers(rows.iter().map(of).collect()));
-    };
-    whole(own.branch, |row| row.branch as i64);
-    whole(own.period, |row| row.period as i64);
-    whole(own.stable, |row| i64::from(row.is_stable()));
-    whole(own.sequence, |row| row.point.sequence as i64);
-    let mut real = |entry: Entry, of: &dyn Fn(&Row<'_>) -> f64| {
-        dataset.put_column(entry, Values::reals(rows.iter().map(of).collect()));
-    };
-    real(own.residual, &|row| row.point.residual);
-    for &parameter in along {
-        real(place.of(Entry::of_parameter(parameter)), &|row| match row.along == parameter {
-            true => row.point.parameter,
-            false => f64::NAN,
-        });
-    }
-    for &output in outputs {
-        real(place.of(Entry::of_output(output)), &|row| row.point.measured[output]);
-    }
-    add_sections(dataset, place, rows);
-    add_multipliers(dataset, own, rows);
+/// The orbits at one place of the branches, and how their columns are called there.
+pub struct OrbitTable<'a> {
+    /// The place.
+    pub place: Place,
+    /// The columns that no other variable is called after.
+    pub own: &'a OrbitColumns,
+    /// The orbits.
+    pub rows: &'a [Row<'a>],
 }
 
-/// The section points of one period, padded with NaN up to the longest.
-fn add_sections(dataset: &mut Dataset, place: Place, rows: &[Row<'_>]) {
-    let cycles = dataset.coordinate(BRANCH_CYCLE.name);
-    let length = cycles.map_or(0, |cycles| cycles.values.shape()[0]);
-    for (i, entry) in section(dataset.model()).into_iter().enumerate() {
-        let of_row = |row: &Row<'_>| {
-            let section = &row.point.section;
-            (0..length).map(|n| section.get(n).map_or(f64::NAN, |it| it[i])).collect::<Vec<_>>()
-        };
-        let values = rows.iter().flat_map(of_row).collect();
-        dataset.put_column(place.of(entry), table(rows.len(), length, values));
+impl OrbitTable<'_> {
+    /// Adds the columns of the orbits; a parameter that does not vary on a branch is NaN.
+    pub fn add(&self, dataset: &mut Dataset, along: &[Parameter], outputs: &[Output]) {
+        let OrbitTable { place, own, rows } = *self;
+        let mut columns = Columns { dataset, rows };
+        columns.integers(own.branch, |row| row.branch as i64);
+        columns.integers(own.period, |row| row.period as i64);
+        columns.integers(own.stable, |row| i64::from(row.is_stable()));
+        columns.integers(own.sequence, |row| row.point.sequence as i64);
+        columns.reals(own.residual, |row| row.point.residual);
+        for &parameter in along {
+            let entry = place.of(Entry::of_parameter(parameter));
+            columns.reals(entry, |row| match row.along == parameter {
+                true => row.point.parameter,
+                false => f64::NAN,
+            });
+        }
+        for &output in outputs {
+            let entry = place.of(Entry::of_output(output));
+            columns.reals(entry, |row| row.point.measured[output]);
+        }
+        self.add_sections(&mut columns);
+        self.add_multipliers(&mut columns);
     }
-}
 
-fn add_multipliers(dataset: &mut Dataset, own: &OrbitColumns, rows: &[Row<'_>]) {
-    let parts: [fn(&Complex) -> f64; 2] = [|multiplier| multiplier.re, |multiplier| multiplier.im];
-    for (entry, part) in own.multipliers.into_iter().zip(parts) {
-        let values = rows.iter().flat_map(|row| row.point.multipliers.iter().map(part)).collect();
-        let count = dataset.model().section.len();
-        dataset.put_column(entry, table(rows.len(), count, values));
+    /// The section points of one period, padded with NaN up to the longest.
+    fn add_sections(&self, columns: &mut Columns<'_, Row<'_>>) {
+        let cycles = columns.dataset.coordinate(BRANCH_CYCLE.name);
+        let length = cycles.map_or(0, |cycles| cycles.values.shape()[0]);
+        for (i, entry) in section(columns.dataset.model()).into_iter().enumerate() {
+            columns.several(self.place.of(entry), length, |row, cycle| {
+                row.point.section.get(cycle).map_or(f64::NAN, |it| it[i])
+            });
+        }
     }
-}
 
-/// Several reals at each of `count` places.
-fn table(count: usize, width: usize, values: Vec<f64>) -> Values {
-    let array = ArrayD::from_shape_vec(IxDyn(&[count, width]), values);
-    Values::Real(array.expect("as many values at each place"))
+    fn add_multipliers(&self, columns: &mut Columns<'_, Row<'_>>) {
+        let count = columns.dataset.model().section.len();
+        let [real, imaginary] = self.own.multipliers;
+        columns.several(real, count, |row, at| row.point.multipliers[at].re);
+        columns.several(imaginary, count, |row, at| row.point.multipliers[at].im);
+    }
 }

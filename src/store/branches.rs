@@ -1,8 +1,9 @@
 //! The variables of the branches in a file of results, beside those of the sweep.
 
-use super::branch_columns::add_points;
+use super::branch_columns::OrbitTable;
 use super::catalogue;
 use super::catalogue::*;
+use super::columns::Columns;
 use super::flat::Flat;
 use super::{Dataset, Values, Variable};
 use crate::branch::End;
@@ -28,9 +29,7 @@ pub fn has_cases(dataset: &Dataset) -> bool {
 /// Removes the branches from `dataset`.
 pub fn drop_branches(dataset: &mut Dataset) {
     dataset.coordinates.retain(|(name, _)| !is_of_branches(name));
-    dataset
-        .variables
-        .retain(|_, variable| !variable.dimensions.iter().any(|it| is_of_branches(it)));
+    dataset.variables.retain(|_, variable| !lies_over_branches(variable));
     dataset.texts.remove(BRANCH_NAMES);
 }
 
@@ -38,11 +37,14 @@ pub fn drop_branches(dataset: &mut Dataset) {
 pub fn keep_branches(dataset: &mut Dataset, older: &Dataset) {
     let coordinates = older.coordinates.iter().filter(|(name, _)| is_of_branches(name));
     dataset.coordinates.extend(coordinates.cloned());
-    let of_branches = |variable: &Variable| variable.dimensions.iter().any(|it| is_of_branches(it));
-    let variables = older.variables.iter().filter(|(_, variable)| of_branches(variable));
+    let variables = older.variables.iter().filter(|(_, variable)| lies_over_branches(variable));
     dataset.variables.extend(variables.map(|(name, variable)| (name.clone(), variable.clone())));
     let names = older.texts.get(BRANCH_NAMES);
     dataset.texts.extend(names.map(|names| (BRANCH_NAMES.to_owned(), names.clone())));
+}
+
+fn lies_over_branches(variable: &Variable) -> bool {
+    variable.dimensions.iter().any(|it| is_of_branches(it))
 }
 
 /// Adds what came of the branches of `study`, in its order.
@@ -66,11 +68,11 @@ pub fn add_branches(dataset: &mut Dataset, study: &Study, continued: &[Continued
     add_requests(dataset, study, continued);
     add_index(dataset, &flat);
     let along = parameters(study.branches.iter().map(|branch| branch.along));
-    let (points, specials) = (&flat.points, &flat.specials);
-    let point = (Place::Branch, &AT_BRANCH_POINTS);
-    add_points(dataset, point, points, &along, &study.outputs);
-    let special = (Place::Special, &AT_SPECIAL_POINTS);
-    add_points(dataset, special, specials, &along, &study.outputs);
+    let points = OrbitTable { place: Place::Branch, own: &AT_BRANCH_POINTS, rows: &flat.points };
+    points.add(dataset, &along, &study.outputs);
+    let specials =
+        OrbitTable { place: Place::Special, own: &AT_SPECIAL_POINTS, rows: &flat.specials };
+    specials.add(dataset, &along, &study.outputs);
     add_special_kinds(dataset, &flat);
     add_curves(dataset, study, &flat);
 }
@@ -152,19 +154,17 @@ fn add_special_kinds(dataset: &mut Dataset, flat: &Flat<'_>) {
 fn add_curves(dataset: &mut Dataset, study: &Study, flat: &Flat<'_>) {
     let ends = flat.curves.iter().map(|curve| curve.ends);
     add_ends(dataset, [CURVE_END_FIRST, CURVE_END_LAST], ends);
-    let curve = |at: &(usize, [f64; 2])| &flat.curves[at.0];
-    let points = &flat.curve_points;
-    integers(dataset, CURVE, points.iter().map(|it| it.0 as i64));
-    integers(dataset, CURVE_KIND, points.iter().map(|it| curve(it).kind as i64));
-    integers(dataset, CURVE_PERIOD, points.iter().map(|it| curve(it).period as i64));
-    integers(dataset, CURVE_THROUGH, points.iter().map(|it| curve(it).through as i64));
+    let mut columns = Columns { dataset, rows: &flat.curve_points };
+    columns.integers(CURVE, |it| it.curve as i64);
+    columns.integers(CURVE_KIND, |it| flat.curves[it.curve].kind as i64);
+    columns.integers(CURVE_PERIOD, |it| flat.curves[it.curve].period as i64);
+    columns.integers(CURVE_THROUGH, |it| flat.curves[it.curve].through as i64);
     let asked = study.branches.iter().filter(|branch| branch.second.is_some());
     for parameter in parameters(asked.flat_map(Continuation::varied)) {
-        let values = points.iter().map(|it| {
-            let varied = curve(it).varied;
+        columns.reals(Place::Curve.of(Entry::of_parameter(parameter)), |it| {
+            let varied = flat.curves[it.curve].varied;
             let place = varied.iter().position(|&varied| varied == Some(parameter));
-            place.map_or(f64::NAN, |place| it.1[place])
+            place.map_or(f64::NAN, |place| it.parameters[place])
         });
-        reals(dataset, Place::Curve.of(Entry::of_parameter(parameter)), values);
     }
 }

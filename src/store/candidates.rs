@@ -6,7 +6,7 @@ use super::case_table::{CaseTable, Column};
 use super::catalogue::OUTCOME;
 use super::constraint::{Condition, fulfils};
 use super::{StoreError, Unread};
-use crate::description::Output;
+use crate::description::{Output, Parameter};
 use crate::orbit::Outcome;
 use crate::tradeoff::Candidate;
 
@@ -72,28 +72,36 @@ fn column(table: &CaseTable<'_>, output: Output) -> Result<Column, Unread> {
     if let Some(column) = table.column(output.name())? {
         return Ok(column);
     }
-    let both = |a: &str, b: &str, of: fn(f64, f64) -> f64| -> Result<Option<Column>, StoreError> {
-        let (Some(a), Some(b)) = (table.column(a)?, table.column(b)?) else { return Ok(None) };
-        let values = a.values.iter().zip(&b.values).map(|(a, b)| of(*a, *b)).collect();
-        Ok(Some(Column { values, ..a }))
-    };
     let model = table.model();
-    let (work, speed) = (model.work().name(), model.speed().name());
-    let found = match (output, model.drive_frequency()) {
-        (_, Some(omega)) if output == model.power() => {
-            both(work, omega.symbol(), |work, omega| work * omega / std::f64::consts::TAU)?
-        }
-        (..) if output == model.energy_per_distance() => match column(table, model.power()) {
-            Ok(power) => table.column(speed)?.map(|speeds| {
-                let both = power.values.iter().zip(&speeds.values);
-                let values = both.map(|(power, speed)| power / speed.abs()).collect();
-                Column { values, ..power }
-            }),
-            Err(_) => None,
-        },
+    let found = match model.drive_frequency() {
+        Some(omega) if output == model.power() => power(table, omega)?,
+        _ if output == model.energy_per_distance() => energy_per_distance(table)?,
         _ => None,
     };
     found.ok_or_else(|| Unread::Faults(vec![format!("the file has no `{}`", output.name())]))
+}
+
+/// The power, from the work of a cycle and the frequency of the drive.
+fn power(table: &CaseTable<'_>, omega: Parameter) -> Result<Option<Column>, StoreError> {
+    let work = table.column(table.model().work().name())?;
+    let frequencies = table.column(omega.symbol())?;
+    let both = work.zip(frequencies);
+    Ok(both.map(|(work, frequencies)| {
+        combined(work, &frequencies, |work, omega| work * omega / std::f64::consts::TAU)
+    }))
+}
+
+/// The energy per distance, from power and speed.
+fn energy_per_distance(table: &CaseTable<'_>) -> Result<Option<Column>, StoreError> {
+    let Ok(power) = column(table, table.model().power()) else { return Ok(None) };
+    let speeds = table.column(table.model().speed().name())?;
+    Ok(speeds.map(|speeds| combined(power, &speeds, |power, speed| power / speed.abs())))
+}
+
+/// A number of each case from those of two columns, under the labels of the first.
+fn combined(first: Column, second: &Column, of: fn(f64, f64) -> f64) -> Column {
+    let both = first.values.iter().zip(&second.values);
+    Column { values: both.map(|(a, b)| of(*a, *b)).collect(), ..first }
 }
 
 /// A column of which nothing is known.

@@ -49,10 +49,10 @@ impl<'a> CaseTable<'a> {
 
     /// What there is one number of for each case, by name.
     pub fn names(&self) -> Vec<String> {
-        let fits = |(_, over): &(&str, &[String])| over.is_empty() || self.is_over_cases(over);
-        let variables = self.archive.variables().filter(fits).map(|(name, _)| name.to_owned());
         let axes = self.dimensions.iter().map(|(name, _)| name.clone());
-        axes.chain(variables).collect()
+        let variables = self.archive.variables();
+        let fitting = variables.filter(|(_, over)| over.is_empty() || self.is_over_cases(over));
+        axes.chain(fitting.map(|(name, _)| name.to_owned())).collect()
     }
 
     fn is_over_cases(&self, dimensions: &[String]) -> bool {
@@ -66,8 +66,8 @@ impl<'a> CaseTable<'a> {
             let Some(variable) = self.archive.frame().coordinate(name) else { return Ok(None) };
             let values: Vec<f64> = variable.values.to_real().into_iter().collect();
             let inner: usize = self.dimensions[axis + 1..].iter().map(|(_, it)| it).product();
-            let at = |case: usize| values[case / inner % values.len()];
-            return Ok(Some(column(variable, (0..self.cases()).map(at).collect())));
+            let of_cases = (0..self.cases()).map(|case| values[case / inner % values.len()]);
+            return Ok(Some(column(variable, of_cases.collect())));
         }
         let Some(variable) = self.archive.variable(name)? else { return Ok(None) };
         let values: Vec<f64> = variable.values.to_real().into_iter().collect();

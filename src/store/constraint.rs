@@ -110,35 +110,37 @@ pub fn fulfils(conditions: &[Condition], case: usize) -> bool {
 
 /// One condition.
 fn condition(table: &CaseTable<'_>, text: &str) -> Result<Condition, Unread> {
-    let fault = |message: String| Unread::Faults(vec![format!("\"{text}\": {message}")]);
     let sign = text.find(['<', '>', '!', '=']).and_then(|at| {
         let found = SIGNS.iter().find(|(sign, _)| text[at..].starts_with(sign));
         found.map(|(sign, comparison)| (at, sign.len(), *comparison))
     });
     let Some((at, length, comparison)) = sign else {
         let expected = "expected a name, one of < <= > >= = !=, and a value, joined by `and`";
-        return Err(fault(expected.to_owned()));
+        return Err(fault(text, expected));
     };
     let (name, limit) = (text[..at].trim(), text[at + length..].trim());
     let Some(column) = table.column(name)? else {
         let names = table.names();
-        return Err(fault(unknown(
-            "output or parameter of a case",
-            name,
-            names.iter().map(String::as_str),
-        )));
+        let kind = "output or parameter of a case";
+        return Err(fault(text, &unknown(kind, name, names.iter().map(String::as_str))));
     };
-    let (text, name) = (text.to_owned(), name.to_owned());
-    if !column.flags.is_empty() {
-        let named = column.flags.iter().find(|(_, flag)| flag == limit).map(|(code, _)| *code);
-        let names = column.flags.iter().map(|(_, flag)| flag.as_str());
-        return match named {
-            Some(code) => Ok(Condition { text, name, column, comparison, limit: code as f64 }),
-            None => Err(fault(unknown("category", limit, names))),
-        };
-    }
-    let limit = quantity(limit, &column.unit).map_err(fault)?;
-    Ok(Condition { text, name, column, comparison, limit })
+    let limit = match column.flags.as_slice() {
+        [] => quantity(limit, &column.unit),
+        flags => category(limit, flags),
+    };
+    let limit = limit.map_err(|message| fault(text, &message))?;
+    Ok(Condition { text: text.to_owned(), name: name.to_owned(), column, comparison, limit })
+}
+
+fn fault(text: &str, message: &str) -> Unread {
+    Unread::Faults(vec![format!("\"{text}\": {message}")])
+}
+
+/// The code of the category called `name`.
+fn category(name: &str, flags: &[(i64, String)]) -> Result<f64, String> {
+    let found = flags.iter().find(|(_, flag)| flag == name);
+    let names = flags.iter().map(|(_, flag)| flag.as_str());
+    found.map(|(code, _)| *code as f64).ok_or_else(|| unknown("category", name, names))
 }
 
 /// A quantity with a unit of the dimension of `unit`, in SI; a plain number is in SI already.
@@ -146,9 +148,8 @@ pub fn quantity(text: &str, unit: &str) -> Result<f64, String> {
     if let Ok(value) = text.trim().parse::<f64>() {
         return Ok(value);
     }
-    let has_unit = |dimension: &Dimension| dimension.unit() == unit;
-    let dimension = Dimension::ALL.into_iter().find(has_unit).unwrap_or(Dimension::Number);
-    parse_quantity(text, dimension)
+    let dimension = Dimension::ALL.into_iter().find(|dimension| dimension.unit() == unit);
+    parse_quantity(text, dimension.unwrap_or(Dimension::Number))
 }
 
 impl From<StoreError> for Unread {

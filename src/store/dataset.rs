@@ -19,6 +19,16 @@ pub enum Values {
 }
 
 impl Values {
+    /// A real without dimensions.
+    pub fn real(value: f64) -> Values {
+        Values::Real(ArrayD::from_elem(IxDyn(&[]), value))
+    }
+
+    /// An integer without dimensions.
+    pub fn integer(value: i64) -> Values {
+        Values::Integer(ArrayD::from_elem(IxDyn(&[]), value))
+    }
+
     /// Reals along one dimension.
     pub fn reals(values: Vec<f64>) -> Values {
         Values::Real(line(values))
@@ -45,8 +55,7 @@ impl Values {
     /// The least and the greatest of integers; none for reals and where there are none.
     pub fn range(&self) -> Option<[i64; 2]> {
         let Values::Integer(all) = self else { return None };
-        let wider = |[low, high]: [i64; 2], it: &i64| [low.min(*it), high.max(*it)];
-        all.first().map(|&first| all.iter().fold([first, first], wider))
+        all.iter().min().zip(all.iter().max()).map(|(&low, &high)| [low, high])
     }
 
     /// The number at a place of a line, as a line.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::Duration;
 
-use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenUnicode};
-use hdf5::{Dataset as Array, File, Hyperslab, Location, SliceOrIndex};
+use hdf5::types::{TypeDescriptor, VarLenUnicode};
+use hdf5::{Dataset as Array, File, Hyperslab, SliceOrIndex};
 use ndarray::{ArrayD, IxDyn};
 
 use super::branches::is_of_branches;
@@ -15,6 +15,7 @@ use super::names::*;
 use super::own_layout;
 use super::slab::Slab;
 use super::watched::Watched;
+use super::words::{has, text, words, words_or};
 use super::{Dataset, StoreError, Values, Variable};
 
 /// How often a file is tried that is locked, and the time between two tries.
@@ -22,8 +23,6 @@ const LOCK_TRIES: u32 = 100;
 const LOCK_PAUSE: Duration = Duration::from_millis(100);
 /// What is done when the system is asked about a file.
 const LOOKING: &str = "looking whether the file has changed";
-/// Texts of a fixed length are no longer than this [bytes].
-const LONGEST_TEXT: usize = 1024;
 
 /// An open file of results, of which each variable can be read by itself.
 #[derive(Debug)]
@@ -41,16 +40,16 @@ pub struct Archive {
 impl Archive {
     /// Opens the HDF5 file at `path`, which was `checked`.
     pub(super) fn decode(path: &Path, checked: Watched) -> Result<Archive, StoreError> {
-        let failed = |doing: String| move |said| StoreError::decoding(path, doing, said);
-        let file = opened(path).map_err(failed("opening the file".into()))?;
+        let file = opened(path).map_err(StoreError::decoding(path, "opening the file"))?;
         check_format(&file, path)?;
         let mut frame = Dataset::default();
         let mut numbered = Vec::new();
         let mut waiting = Vec::new();
-        let arrays = own_layout::arrays(&file).map_err(failed("listing the variables".into()))?;
+        let arrays = own_layout::arrays(&file)
+            .map_err(StoreError::decoding(path, "listing the variables"))?;
         for (name, array) in arrays {
             let found = found(&array, &file, &name);
-            match found.map_err(failed(format!("reading {name}")))? {
+            match found.map_err(reading(path, &name))? {
                 Found::Text(text) => drop(frame.texts.insert(name, text)),
                 Found::Coordinate(id, variable) => numbered.push((id, (name, variable))),
                 Found::Variable(ids, variable) => waiting.push((name, ids, variable, array)),
@@ -60,13 +59,14 @@ impl Archive {
         frame.coordinates = numbered.into_iter().map(|(_, coordinate)| coordinate).collect();
         let mut labels = BTreeMap::new();
         for (name, ids, mut variable, array) in waiting {
-            variable.dimensions = dimensions(&frame, &ids, &array.shape())
-                .map_err(failed(format!("reading {name}")))?;
+            variable.dimensions =
+                dimensions(&frame, &ids, &array.shape()).map_err(reading(path, &name))?;
             labels.insert(name, variable);
         }
-        frame.attributes = attributes(&file).map_err(failed("reading the attributes".into()))?;
+        frame.attributes =
+            attributes(&file).map_err(StoreError::decoding(path, "reading the attributes"))?;
         // By its path another file may have been opened than the one that was checked.
-        if !checked.is_at(path).map_err(|said| StoreError::system(path, LOOKING, said))? {
+        if !checked.is_at(path).map_err(StoreError::system(path, LOOKING))? {
             return Err(StoreError::ChangedSince { path: path.to_owned() });
         }
         let archive = Archive { path: path.to_owned(), file, checked, frame, labels };
@@ -76,8 +76,8 @@ impl Archive {
     /// Fails if the file was changed since it was opened; one that replaces it does not change it. What was read before it
     /// fails may be of both.
     pub fn check(&self) -> Result<(), StoreError> {
-        let failed = |said| StoreError::system(&self.path, LOOKING, said);
-        match self.checked.is_unchanged().map_err(failed)? {
+        let unchanged = self.checked.is_unchanged();
+        match unchanged.map_err(StoreError::system(&self.path, LOOKING))? {
             true => Ok(()),
             false => Err(StoreError::ChangedSince { path: self.path.clone() }),
         }
@@ -110,31 +110,24 @@ impl Archive {
 
     /// How many numbers a variable has along each dimension; none if there is none of this name.
     pub(super) fn shape(&self, name: &str) -> Result<Option<Vec<usize>>, StoreError> {
-        let failed = |said| StoreError::decoding(&self.path, format!("reading {name}"), said);
-        let array = self.labels.get(name).map(|_| self.file.dataset(name));
-        Ok(array.transpose().map_err(failed)?.map(|array| array.shape()))
+        let array = self.labels.get(name).map(|_| self.file.dataset(name)).transpose();
+        Ok(array.map_err(reading(&self.path, name))?.map(|array| array.shape()))
     }
 
     /// A variable with its numbers; none if there is none of this name.
     pub fn variable(&self, name: &str) -> Result<Option<Variable>, StoreError> {
-        let read = |array: Array| values(&array);
-        self.numbers(name, read)
+        self.numbers(name, |array| values(&array))
     }
 
     /// What some cases, given by their positions along the axes, have of a variable; nothing if there is none
     /// of this name.
     pub fn rows(&self, name: &str, at: &[Vec<usize>]) -> Result<Vec<Values>, StoreError> {
-        let failed = |said| StoreError::decoding(&self.path, format!("reading {name}"), said);
         if !self.labels.contains_key(name) {
             return Ok(Vec::new());
         }
         self.check()?;
-        let array = self.file.dataset(name).map_err(failed)?;
-        let row = |position: &Vec<usize>| {
-            let slab = Slab { start: position.clone(), count: vec![1; position.len()] };
-            values_of(&array, &slab).map_err(failed)
-        };
-        let rows = at.iter().map(row).collect::<Result<_, _>>()?;
+        let rows = self.file.dataset(name).and_then(|array| rows_of(&array, at));
+        let rows = rows.map_err(reading(&self.path, name))?;
         self.check().map(|()| rows)
     }
 
@@ -148,10 +141,9 @@ impl Archive {
         name: &str,
         read: impl Fn(Array) -> hdf5::Result<Values>,
     ) -> Result<Option<Variable>, StoreError> {
-        let failed = |said| StoreError::decoding(&self.path, format!("reading {name}"), said);
         let Some(label) = self.labels.get(name) else { return Ok(None) };
         self.check()?;
-        let values = self.file.dataset(name).and_then(read).map_err(failed)?;
+        let values = self.file.dataset(name).and_then(read).map_err(reading(&self.path, name))?;
         self.check()?;
         Ok(Some(Variable { values, ..label.clone() }))
     }
@@ -223,6 +215,16 @@ fn opened(path: &Path) -> hdf5::Result<File> {
     File::open(path)
 }
 
+fn reading(path: &Path, name: &str) -> impl FnOnce(hdf5::Error) -> StoreError {
+    StoreError::decoding(path, format!("reading {name}"))
+}
+
+/// What the cases at some positions along the axes have of an array.
+fn rows_of(array: &Array, at: &[Vec<usize>]) -> hdf5::Result<Vec<Values>> {
+    let slabs = at.iter().map(|it| Slab { start: it.clone(), count: vec![1; it.len()] });
+    slabs.map(|slab| values_of(array, &slab)).collect()
+}
+
 /// What the cases of a slab have of an array.
 fn values_of(array: &Array, slab: &Slab) -> hdf5::Result<Values> {
     let shape = array.shape();
@@ -258,15 +260,14 @@ enum Found {
 }
 
 fn check_format(file: &File, path: &Path) -> Result<(), StoreError> {
-    let foreign = |why: String| StoreError::Foreign { path: path.to_owned(), why };
-    let format =
-        words(file, FORMAT).map_err(|_| foreign(format!("it has no attribute {FORMAT}")))?;
-    if format != FORMAT_WRITTEN {
-        return Err(foreign(format!(
-            "its layout is {format:?} and this version reads {FORMAT_WRITTEN:?}"
-        )));
-    }
-    Ok(())
+    let why = match words(file, FORMAT) {
+        Ok(format) if format == FORMAT_WRITTEN => return Ok(()),
+        Ok(format) => {
+            format!("its layout is {format:?} and this version reads {FORMAT_WRITTEN:?}")
+        }
+        Err(_) => format!("it has no attribute {FORMAT}"),
+    };
+    Err(StoreError::Foreign { path: path.to_owned(), why })
 }
 
 fn found(array: &Array, file: &File, name: &str) -> hdf5::Result<Found> {
@@ -275,11 +276,7 @@ fn found(array: &Array, file: &File, name: &str) -> hdf5::Result<Found> {
         return Ok(Found::Text(text(array.read_scalar::<VarLenUnicode>()?)?));
     }
     // Another program may have added a variable without them.
-    let label = |name: &str, without: &str| match has(array, name)? {
-        true => words(array, name),
-        false => Ok(without.to_owned()),
-    };
-    let labels = [label(UNITS, "1")?, label(LONG_NAME, name)?];
+    let labels = [words_or(array, UNITS, "1")?, words_or(array, LONG_NAME, name)?];
     let mut variable =
         Variable::labelled(Vec::new(), labels, nothing(array)?).with_flags(flags(array, file)?);
     // netCDF-4 numbers the first dimension of other variables, too, that are no scale of one.
@@ -300,13 +297,13 @@ fn found(array: &Array, file: &File, name: &str) -> hdf5::Result<Found> {
 
 /// The numbers of a category whose values are stored by their names.
 fn codes(array: &Array, flags: &[(i64, String)]) -> hdf5::Result<Values> {
-    let code = |name: VarLenUnicode| {
+    let mut codes = Vec::new();
+    for name in array.read_raw::<VarLenUnicode>()? {
         let name = text(name)?;
         let flag = flags.iter().find(|(_, other)| *other == name);
-        Ok(flag.ok_or_else(|| format!("\"{name}\" is none of its values"))?.0)
-    };
-    let names: Vec<VarLenUnicode> = array.read_raw()?;
-    Ok(Values::integers(names.into_iter().map(code).collect::<hdf5::Result<Vec<i64>>>()?))
+        codes.push(flag.ok_or_else(|| format!("\"{name}\" is none of its values"))?.0);
+    }
+    Ok(Values::integers(codes))
 }
 
 /// No numbers, of the kind that the array has.
@@ -372,28 +369,4 @@ fn number_or_words(file: &File, name: &str) -> hdf5::Result<String> {
         TypeDescriptor::Float(_) => Ok(format!("{:e}", attribute.read_scalar::<f64>()?)),
         _ => words(file, name),
     }
-}
-
-fn has(place: &Location, name: &str) -> hdf5::Result<bool> {
-    Ok(place.attr_names()?.iter().any(|present| present == name))
-}
-
-/// An attribute as text; netCDF-4 writes texts of a fixed length, too.
-fn words(place: &Location, name: &str) -> hdf5::Result<String> {
-    let attribute = place.attr(name)?;
-    match attribute.dtype()?.to_descriptor()? {
-        TypeDescriptor::FixedAscii(length) if length <= LONGEST_TEXT => {
-            Ok(attribute.read_scalar::<FixedAscii<LONGEST_TEXT>>()?.to_string())
-        }
-        TypeDescriptor::FixedUnicode(length) if length <= LONGEST_TEXT => {
-            Ok(attribute.read_scalar::<FixedUnicode<LONGEST_TEXT>>()?.to_string())
-        }
-        _ => text(attribute.read_scalar::<VarLenUnicode>()?),
-    }
-}
-
-/// A damaged file may hold any bytes, so they are checked to be text.
-fn text(string: VarLenUnicode) -> hdf5::Result<String> {
-    let text = std::str::from_utf8(string.as_bytes());
-    Ok(text.map_err(|_| "a text is not valid UTF-8")?.to_owned())
 }

@@ -8,11 +8,9 @@ use super::{Dataset, Values, Variable};
 ///
 /// A missing value (NaN) equals itself here, which `==` denies.
 pub fn difference(left: &Dataset, right: &Dataset) -> Option<String> {
-    let names = |dataset: &Dataset| -> Vec<String> {
-        dataset.coordinates.iter().map(|(name, _)| name.clone()).collect()
-    };
-    if names(left) != names(right) {
-        return Some(format!("coordinates {:?} and {:?}", names(left), names(right)));
+    let [names, others] = [left, right].map(coordinate_names);
+    if names != others {
+        return Some(format!("coordinates {names:?} and {others:?}"));
     }
     let coordinates = left.coordinates.iter().zip(&right.coordinates);
     coordinates
@@ -21,6 +19,10 @@ pub fn difference(left: &Dataset, right: &Dataset) -> Option<String> {
         .or_else(|| variables_difference(&left.variables, &right.variables))
         .or_else(|| text_difference("attribute", &left.attributes, &right.attributes))
         .or_else(|| text_difference("text", &left.texts, &right.texts))
+}
+
+fn coordinate_names(dataset: &Dataset) -> Vec<&str> {
+    dataset.coordinates.iter().map(|(name, _)| name.as_str()).collect()
 }
 
 fn variables_difference(

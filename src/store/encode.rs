@@ -29,41 +29,38 @@ pub type Scales = Vec<(String, Array)>;
 
 /// The bytes of the file that holds `dataset`; `path` only names it in messages.
 pub fn image(dataset: &Dataset, path: &Path) -> Result<Vec<u8>, StoreError> {
-    let failed = |doing: &str| {
-        let doing = doing.to_owned();
-        move |said| StoreError::encoding(path, doing, said)
-    };
     // HDF5 takes two files in memory of one name for the same file, so there is one at a time.
     hdf5::sync::sync(|| {
-        let in_memory = |plist: &mut FileAccessBuilder| {
+        let file = blank(Path::new("capsulemap.nc"), |plist| {
             plist.core_options(GROWTH_BYTES, false);
-        };
-        let file = blank(Path::new("capsulemap.nc"), in_memory);
-        let file = file.map_err(failed("starting a file in memory"))?;
+        });
+        let file = file.map_err(StoreError::encoding(path, "starting a file in memory"))?;
         drop(lay_out(&file, dataset, path)?);
-        file.flush().and_then(|()| scale::image(&file)).map_err(failed("completing the file"))
+        let image = file.flush().and_then(|()| scale::image(&file));
+        image.map_err(StoreError::encoding(path, "completing the file"))
     })
 }
 
 /// Puts `dataset` into `file`; `path` only names it in messages.
 pub fn lay_out(file: &File, dataset: &Dataset, path: &Path) -> Result<Scales, StoreError> {
-    let failed = |doing: String| move |said| StoreError::encoding(path, doing, said);
     let mut scales = Scales::new();
     for (name, coordinate) in &dataset.coordinates {
         let placed = put_coordinate(file, name, coordinate, scales.len());
-        let placed = placed.map_err(failed(format!("storing the coordinate {name}")))?;
+        let placed =
+            placed.map_err(StoreError::encoding(path, format!("storing the coordinate {name}")))?;
         scales.push((name.clone(), placed));
     }
     for (name, variable) in &dataset.variables {
         put_variable(file, name, variable, &scales)
-            .map_err(failed(format!("storing the variable {name}")))?;
+            .map_err(StoreError::encoding(path, format!("storing the variable {name}")))?;
     }
     for (name, text) in &dataset.texts {
-        put_text(file, name, text).map_err(failed(format!("storing the text {name}")))?;
+        put_text(file, name, text)
+            .map_err(StoreError::encoding(path, format!("storing the text {name}")))?;
     }
     for (name, words) in &dataset.attributes {
         put_number_or_words(file, name, words)
-            .map_err(failed(format!("storing the attribute {name}")))?;
+            .map_err(StoreError::encoding(path, format!("storing the attribute {name}")))?;
     }
     // What is the same for all cases, so that xarray does not spread it over them.
     let constants = dataset.variables.iter().filter(|(_, it)| it.dimensions.is_empty());
@@ -71,7 +68,7 @@ pub fn lay_out(file: &File, dataset: &Dataset, path: &Path) -> Result<Scales, St
     let constants: Vec<&str> = constants.map(String::as_str).collect();
     if !constants.is_empty() {
         put_attribute(file, COORDINATES, &constants.join(" "))
-            .map_err(failed(format!("storing the attribute {COORDINATES}")))?;
+            .map_err(StoreError::encoding(path, format!("storing the attribute {COORDINATES}")))?;
     }
     Ok(scales)
 }
@@ -111,13 +108,12 @@ fn put_coordinate(
 
 /// A category as the names of its values, by which xarray selects; the flags tell their numbers.
 fn put_names(file: &File, name: &str, category: &Variable) -> hdf5::Result<Array> {
-    let word = |code: f64| {
+    let mut words = Vec::new();
+    for code in category.values.to_real() {
         let flag = category.flags.iter().find(|(value, _)| *value as f64 == code);
         let (_, word) = flag.ok_or_else(|| format!("{name} has a value without a name"))?;
-        string(word)
-    };
-    let words: Vec<VarLenUnicode> =
-        category.values.to_real().iter().map(|code| word(*code)).collect::<hdf5::Result<_>>()?;
+        words.push(string(word)?);
+    }
     let array = file.new_dataset_builder().with_data(ArrayView1::from(&words)).create(name)?;
     label(&array, category, Element::of(category, category.values.range()))?;
     Ok(array)
@@ -131,24 +127,20 @@ fn put_variable(
 ) -> hdf5::Result<()> {
     let array = put_labelled(file, name, variable)?;
     let element = Element::of(variable, variable.values.range());
-    attach(&array, (name, variable, element), scales)
+    attach(&array, name, variable, element, scales)
 }
 
 /// Names the coordinates of a variable, and the number that stands for a missing one.
 pub fn attach(
     array: &Array,
-    (name, variable, element): (&str, &Variable, Element),
+    name: &str,
+    variable: &Variable,
+    element: Element,
     scales: &[(String, Array)],
 ) -> hdf5::Result<()> {
-    let fill_value = |array: &Array| match element {
-        Element::Real => array.new_attr::<f64>().create(FILL_VALUE)?.write_scalar(&f64::NAN),
-        Element::Byte => array.new_attr::<i8>().create(FILL_VALUE)?.write_scalar(&0),
-        Element::Int => array.new_attr::<i32>().create(FILL_VALUE)?.write_scalar(&0),
-        Element::Long => array.new_attr::<i64>().create(FILL_VALUE)?.write_scalar(&0),
-    };
     // No motion has the period 0: the number stands for none.
     if element == Element::Real || name == PERIOD.name {
-        fill_value(array)?;
+        element.put_fill_value(array)?;
     }
     let mut positions = Vec::new();
     for (dimension, along) in variable.dimensions.iter().enumerate() {
@@ -222,12 +214,9 @@ impl Element {
         }
         let flags = variable.flags.iter().map(|(value, _)| *value);
         let all: Vec<i64> = range.into_iter().flatten().chain(flags).collect();
-        let fits = |low: i64, high: i64| all.iter().all(|value| (low..=high).contains(value));
         match () {
-            () if !variable.flags.is_empty() && fits(i8::MIN.into(), i8::MAX.into()) => {
-                Element::Byte
-            }
-            () if fits(i32::MIN.into(), i32::MAX.into()) => Element::Int,
+            () if !variable.flags.is_empty() && fit::<i8>(&all) => Element::Byte,
+            () if fit::<i32>(&all) => Element::Int,
             () => Element::Long,
         }
     }
@@ -238,6 +227,16 @@ impl Element {
             Element::Byte => 1,
             Element::Int => 4,
             Element::Real | Element::Long => 8,
+        }
+    }
+
+    /// Names the number that stands for a missing one.
+    fn put_fill_value(self, array: &Array) -> hdf5::Result<()> {
+        match self {
+            Element::Real => array.new_attr::<f64>().create(FILL_VALUE)?.write_scalar(&f64::NAN),
+            Element::Byte => array.new_attr::<i8>().create(FILL_VALUE)?.write_scalar(&0),
+            Element::Int => array.new_attr::<i32>().create(FILL_VALUE)?.write_scalar(&0),
+            Element::Long => array.new_attr::<i64>().create(FILL_VALUE)?.write_scalar(&0),
         }
     }
 
@@ -267,6 +266,11 @@ impl Element {
             _ => Err("reals and integers are mixed".into()),
         }
     }
+}
+
+/// Whether all numbers are some of a type.
+fn fit<T: TryFrom<i64>>(numbers: &[i64]) -> bool {
+    numbers.iter().all(|number| T::try_from(*number).is_ok())
 }
 
 fn create<T: H5Type>(builder: DatasetBuilder, name: &str, shape: &[usize]) -> hdf5::Result<Array> {

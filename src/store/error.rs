@@ -117,112 +117,131 @@ pub enum Unread {
 }
 
 impl StoreError {
-    /// A refusal of the system, with the file and the step.
-    pub(super) fn system(path: &Path, doing: &'static str, said: io::Error) -> Self {
-        StoreError::System { path: path.to_owned(), doing, said }
+    /// Makes what the system said a refusal, with the file and the step.
+    pub(super) fn system(
+        path: &Path,
+        doing: &'static str,
+    ) -> impl Fn(io::Error) -> StoreError + Copy {
+        move |said| StoreError::System { path: path.to_owned(), doing, said }
     }
 
-    /// A refusal of HDF5 to take something, with the file and the step.
-    pub(super) fn encoding(path: &Path, doing: impl Into<String>, said: hdf5::Error) -> Self {
-        let (doing, said) = (doing.into(), said.to_string());
-        StoreError::Encoding { path: path.to_owned(), doing, said }
+    /// Makes what HDF5 said a refusal to take something, with the file and the step.
+    pub(super) fn encoding(
+        path: &Path,
+        doing: impl Into<String>,
+    ) -> impl FnOnce(hdf5::Error) -> StoreError {
+        move |said| StoreError::Encoding {
+            path: path.to_owned(),
+            doing: doing.into(),
+            said: said.to_string(),
+        }
     }
 
-    /// A refusal of HDF5 to give something, with the file and the step.
-    pub(super) fn decoding(path: &Path, doing: impl Into<String>, said: hdf5::Error) -> Self {
-        let (doing, said) = (doing.into(), said.to_string());
-        StoreError::Decoding { path: path.to_owned(), doing, said }
+    /// Makes what HDF5 said a refusal to give something, with the file and the step.
+    pub(super) fn decoding(
+        path: &Path,
+        doing: impl Into<String>,
+    ) -> impl FnOnce(hdf5::Error) -> StoreError {
+        move |said| StoreError::Decoding {
+            path: path.to_owned(),
+            doing: doing.into(),
+            said: said.to_string(),
+        }
+    }
+
+    /// The file or the folder concerned.
+    fn place(&self) -> &Path {
+        match self {
+            StoreError::Unfit { path, .. }
+            | StoreError::System { path, .. }
+            | StoreError::Encoding { path, .. }
+            | StoreError::Decoding { path, .. }
+            | StoreError::Foreign { path, .. }
+            | StoreError::Damaged { path }
+            | StoreError::ChangedSince { path }
+            | StoreError::NoPlace { path, .. }
+            | StoreError::InUse { path }
+            | StoreError::Unequal { path, .. } => path,
+            StoreError::Changed { folder, .. }
+            | StoreError::Occupied { folder }
+            | StoreError::NoBlocks { folder }
+            | StoreError::Busy { folder }
+            | StoreError::Held { folder } => folder,
+        }
+    }
+
+    /// Writes what is wrong.
+    fn write_fault(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            StoreError::Unfit { faults, .. } => {
+                write!(f, "the dataset cannot be stored:")?;
+                faults.iter().try_for_each(|fault| write!(f, "\n  {fault}"))
+            }
+            StoreError::System { doing, said, .. } => write!(f, "{doing}: {said}"),
+            StoreError::Encoding { doing, said, .. } | StoreError::Decoding { doing, said, .. } => {
+                write!(f, "{doing}: {said}")
+            }
+            StoreError::Foreign { why, .. } => write!(f, "not a result of capsulemap: {why}"),
+            StoreError::Damaged { .. } => f.write_str(
+                "the file has changed since it was written, its checksum does not fit",
+            ),
+            StoreError::ChangedSince { .. } => f.write_str(
+                "the file has changed since it was opened and checked, and nothing more is read from it",
+            ),
+            StoreError::Changed { folder, changes } => write_changes(f, folder, changes),
+            StoreError::Occupied { .. } => {
+                f.write_str("is where the blocks of this study go, and holds other things")
+            }
+            StoreError::NoBlocks { .. } => f.write_str("no blocks of this study are there"),
+            StoreError::Busy { .. } => f.write_str("another run computes this study now"),
+            StoreError::NoPlace { why, .. } => f.write_str(why),
+            StoreError::InUse { .. } => f.write_str("another process adds to it now"),
+            StoreError::Held { .. } => {
+                f.write_str("another run has been writing results there for ten minutes")
+            }
+            StoreError::Unequal { difference, .. } => {
+                write!(f, "what was written does not read back the same: {difference}")
+            }
+        }
+    }
+
+    /// What a person can do; none where the fault says it.
+    fn advice(&self) -> Option<&'static str> {
+        Some(match self {
+            StoreError::Unfit { .. } | StoreError::Changed { .. } | StoreError::NoPlace { .. } => {
+                return None;
+            }
+            StoreError::System { said, .. } => remedy(said.kind()),
+            StoreError::Encoding { .. } => {
+                "nothing was written: free some memory and run again, and report it if it happens \
+                 twice (on a network disk without locks set HDF5_USE_FILE_LOCKING=FALSE)"
+            }
+            StoreError::Decoding { .. } => {
+                "the file may be cut short, damaged or changed by another program: restore a copy \
+                 or make it again (on a network disk without locks set \
+                 HDF5_USE_FILE_LOCKING=FALSE)"
+            }
+            StoreError::Foreign { .. } => "give a file that capsulemap wrote",
+            StoreError::Damaged { .. } => "restore a copy or make it again",
+            StoreError::ChangedSince { .. } => "open it anew when no other program writes to it",
+            StoreError::Occupied { .. } => "move them, or choose another place",
+            StoreError::NoBlocks { .. } => "compute them first",
+            StoreError::Busy { .. } | StoreError::InUse { .. } => {
+                "wait for it, or stop it and run again (what it has finished is kept)"
+            }
+            StoreError::Held { .. } => "run again when it is done (what is finished is kept)",
+            StoreError::Unequal { .. } => {
+                "the new file was discarded and an older one kept: check the disk and run again"
+            }
+        })
     }
 }
 
 impl fmt::Display for StoreError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            StoreError::Unfit { path, faults } => {
-                write!(f, "{}: the dataset cannot be stored:", printable(path))?;
-                faults.iter().try_for_each(|fault| write!(f, "\n  {fault}"))
-            }
-            StoreError::System { path, doing, said } => {
-                write!(f, "{}: {doing}: {said}; {}", printable(path), remedy(said.kind()))
-            }
-            StoreError::Encoding { path, doing, said } => write!(
-                f,
-                "{}: {doing}: {said}; nothing was written: free some memory and run again, and \
-                 report it if it happens twice (on a network disk without locks set \
-                 HDF5_USE_FILE_LOCKING=FALSE)",
-                printable(path)
-            ),
-            StoreError::Decoding { path, doing, said } => write!(
-                f,
-                "{}: {doing}: {said}; the file may be cut short, damaged or changed by another \
-                 program: restore a copy or make it again (on a network disk without locks set \
-                 HDF5_USE_FILE_LOCKING=FALSE)",
-                printable(path)
-            ),
-            StoreError::Foreign { path, why } => write!(
-                f,
-                "{}: not a result of capsulemap: {why}; give a file that capsulemap wrote",
-                printable(path)
-            ),
-            StoreError::Damaged { path } => write!(
-                f,
-                "{}: the file has changed since it was written, its checksum does not fit; restore \
-                 a copy or make it again",
-                printable(path)
-            ),
-            StoreError::ChangedSince { path } => write!(
-                f,
-                "{}: the file has changed since it was opened and checked, and nothing more is read from it; open it \
-                 anew when no other program writes to it",
-                printable(path)
-            ),
-            StoreError::Changed { folder, changes } => {
-                write!(f, "{}: holds blocks of another run: ", printable(folder))?;
-                changes.iter().try_for_each(|change| writeln!(f, "{change}"))?;
-                write!(
-                    f,
-                    "they are kept, and not mixed with others: go back to the study and program that they \
-                     belong to (the study is in {}), choose another place, or delete them",
-                    printable(&folder.join("begun.toml"))
-                )
-            }
-            StoreError::Occupied { folder } => write!(
-                f,
-                "{}: is where the blocks of this study go, and holds other things; move them, or \
-                 choose another place",
-                printable(folder)
-            ),
-            StoreError::NoBlocks { folder } => write!(
-                f,
-                "{}: no blocks of this study are there; compute them first",
-                printable(folder)
-            ),
-            StoreError::Busy { folder } => write!(
-                f,
-                "{}: another run computes this study now; wait for it, or stop it and run again (what it \
-                 has finished is kept)",
-                printable(folder)
-            ),
-            StoreError::NoPlace { path, why } => write!(f, "{}: {why}", printable(path)),
-            StoreError::InUse { path } => write!(
-                f,
-                "{}: another process adds to it now; wait for it, or stop it and run again (what it has finished is \
-                 kept)",
-                printable(path)
-            ),
-            StoreError::Held { folder } => write!(
-                f,
-                "{}: another run has been writing results there for ten minutes; run again when it is done (what \
-                 is finished is kept)",
-                printable(folder)
-            ),
-            StoreError::Unequal { path, difference } => write!(
-                f,
-                "{}: what was written does not read back the same: {difference}; the new file was \
-                 discarded and an older one kept: check the disk and run again",
-                printable(path)
-            ),
-        }
+        write!(f, "{}: ", printable(self.place()))?;
+        self.write_fault(f)?;
+        self.advice().map_or(Ok(()), |advice| write!(f, "; {advice}"))
     }
 }
 
@@ -233,6 +252,18 @@ impl std::error::Error for StoreError {
             _ => None,
         }
     }
+}
+
+/// Writes what has changed since the blocks in a folder were begun, and what a person can do.
+fn write_changes(f: &mut fmt::Formatter<'_>, folder: &Path, changes: &[String]) -> fmt::Result {
+    write!(f, "holds blocks of another run: ")?;
+    changes.iter().try_for_each(|change| writeln!(f, "{change}"))?;
+    write!(
+        f,
+        "they are kept, and not mixed with others: go back to the study and program that they \
+         belong to (the study is in {}), choose another place, or delete them",
+        printable(&folder.join("begun.toml"))
+    )
 }
 
 /// What a person can do about a refusal of the system.

@@ -54,8 +54,7 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
 
 /// Creates a folder, and those it lies in.
 pub fn create_folder(folder: &Path) -> Result<(), StoreError> {
-    std::fs::create_dir_all(folder)
-        .map_err(|said| StoreError::system(folder, "making the folder", said))
+    std::fs::create_dir_all(folder).map_err(StoreError::system(folder, "making the folder"))
 }
 
 /// Keeps bytes in the file at `path`, or where a link there leads, replacing an older one only by all of them.
@@ -71,15 +70,13 @@ pub fn put(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 
 /// A new file beside `path` that has not got its name yet.
 fn begun(path: &Path) -> Result<NamedTempFile, StoreError> {
-    temporary(path, folder(path))
-        .map_err(|said| StoreError::system(path, "starting a new file", said))
+    temporary(path, folder(path)).map_err(StoreError::system(path, "starting a new file"))
 }
 
 /// A file that has not got its name yet, with bytes that are on the disk.
 fn filled(mut file: NamedTempFile, path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
-    let failed = |doing| move |said| StoreError::system(path, doing, said);
-    file.write_all(bytes).map_err(failed("writing"))?;
-    file.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
+    file.write_all(bytes).map_err(StoreError::system(path, "writing"))?;
+    file.as_file().sync_all().map_err(StoreError::system(path, "forcing the file to the disk"))?;
     Ok(file)
 }
 
@@ -87,10 +84,10 @@ fn filled(mut file: NamedTempFile, path: &Path, bytes: &[u8]) -> Result<NamedTem
 ///
 /// Fails if it would take that of something else than a plain file, or the system refuses.
 pub(super) fn name(file: NamedTempFile, path: &Path) -> Result<(), StoreError> {
-    let failed = |doing| move |said| StoreError::system(path, doing, said);
     let path = &place(path)?;
-    file.persist(path).map_err(|refused| failed("giving the file its name")(refused.error))?;
-    sync_folder(folder(path)).map_err(failed("forcing the folder to the disk"))
+    let named = file.persist(path).map_err(|refused| refused.error);
+    named.map_err(StoreError::system(path, "giving the file its name"))?;
+    sync_folder(folder(path)).map_err(StoreError::system(path, "forcing the folder to the disk"))
 }
 
 /// The dataset in the file at `path`, exactly as it was written.
@@ -132,7 +129,7 @@ fn decoded(path: &Path, checked: Watched) -> Result<Archive, StoreError> {
 
 /// What the checksum of the HDF5 file at `path` tells, and the file as it was before that.
 fn checksum_of(path: &Path) -> Result<(Checksum, Watched), StoreError> {
-    let failed = |said| StoreError::system(path, "opening the file", said);
+    let failed = StoreError::system(path, "opening the file");
     if std::path::absolute(path).is_ok_and(|whole| whole.to_str().is_none()) {
         return Err(StoreError::NoPlace { path: path.to_owned(), why: NO_TEXT.to_owned() });
     }
@@ -179,7 +176,7 @@ pub(super) fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile>
 ///
 /// Calls `waits` once if another holds it, and fails if that one holds it for ten minutes.
 pub fn hold(path: &Path, waits: impl FnOnce(&Path)) -> Result<File, StoreError> {
-    let failed = |said| StoreError::system(path, "waiting for others that write there", said);
+    let failed = StoreError::system(path, "waiting for others that write there");
     let place = folder(path);
     let folder = File::open(place).map_err(failed)?;
     let mut waits = Some(waits);
@@ -198,26 +195,29 @@ pub fn hold(path: &Path, waits: impl FnOnce(&Path)) -> Result<File, StoreError> 
 /// Removes what runs that were killed have left of a file at `path` that is [put](put) there, for whom does not hold it.
 pub fn discard_abandoned(path: &Path) -> Result<(), StoreError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let is_old = |file: &File| {
-        let written = file.metadata().and_then(|it| it.modified());
-        written.is_ok_and(|at| at.elapsed().is_ok_and(|age| age >= ABANDONED))
-    };
-    let is_abandoned = |file: &Path| {
-        File::open(file).is_ok_and(|file| match try_lock(&file, Lock::Exclusive) {
-            Ok(Tried::Taken) => true,
-            Ok(Tried::Busy) => false,
-            Ok(Tried::Without) | Err(_) => is_old(&file),
-        })
-    };
     discard_unfinished_in(folder(path), |of, file| of == name && is_abandoned(file))
-        .map_err(|said| StoreError::system(path, "clearing away what is unfinished", said))
+        .map_err(StoreError::system(path, "clearing away what is unfinished"))
+}
+
+/// Whether nobody writes to an unfinished file any more.
+fn is_abandoned(file: &Path) -> bool {
+    File::open(file).is_ok_and(|file| match try_lock(&file, Lock::Exclusive) {
+        Ok(Tried::Taken) => true,
+        Ok(Tried::Busy) => false,
+        Ok(Tried::Without) | Err(_) => is_old(&file),
+    })
+}
+
+fn is_old(file: &File) -> bool {
+    let written = file.metadata().and_then(|it| it.modified());
+    written.is_ok_and(|at| at.elapsed().is_ok_and(|age| age >= ABANDONED))
 }
 
 /// Removes what runs that were killed have left of the file at `path`; to be called by who [holds](hold) it.
 pub fn discard_unfinished(path: &Path) -> Result<(), StoreError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     discard_unfinished_in(folder(path), |of, _| of == name)
-        .map_err(|said| StoreError::system(path, "clearing away what is unfinished", said))
+        .map_err(StoreError::system(path, "clearing away what is unfinished"))
 }
 
 /// Removes what runs that were killed have left in `folder` of those files that `is_ours` by what they were to become

@@ -35,6 +35,14 @@ pub struct FlatCurve {
     pub ends: [End; 2],
 }
 
+/// A point of a curve among all.
+pub struct FlatCurvePoint {
+    /// Number of the curve.
+    pub curve: usize,
+    /// The first and the second parameter there.
+    pub parameters: [f64; 2],
+}
+
 /// What a special point is, beside its orbit.
 pub struct FlatSpecial {
     /// What happens there.
@@ -58,8 +66,8 @@ pub struct Flat<'a> {
     pub special_kinds: Vec<FlatSpecial>,
     /// The curves.
     pub curves: Vec<FlatCurve>,
-    /// Their points, each with the number of its curve.
-    pub curve_points: Vec<(usize, [f64; 2])>,
+    /// Their points.
+    pub curve_points: Vec<FlatCurvePoint>,
 }
 
 impl<'a> Flat<'a> {
@@ -89,9 +97,13 @@ impl<'a> Flat<'a> {
 
     fn add_points(&mut self, along: Parameter, branch: &'a Branch) {
         let (number, first) = (self.branches.len() - 1, self.points.len());
-        let row = |point| Row { branch: number, along, period: branch.period, point };
-        self.points.extend(branch.points.iter().map(row));
-        self.specials.extend(branch.special.iter().map(|special| row(&special.point)));
+        for point in &branch.points {
+            self.points.push(Row { branch: number, along, period: branch.period, point });
+        }
+        for special in &branch.special {
+            let point = &special.point;
+            self.specials.push(Row { branch: number, along, period: branch.period, point });
+        }
         // The curves of a request follow its branches.
         let curves = self.curves.len();
         self.special_kinds.extend(branch.special.iter().map(|special| FlatSpecial {
@@ -107,6 +119,8 @@ impl<'a> Flat<'a> {
         let varied = [Some(continuation.along), second];
         let Curve { kind, period, ends, .. } = *curve;
         self.curves.push(FlatCurve { kind, period, through, varied, ends });
-        self.curve_points.extend(curve.points.iter().map(|&point| (number, point)));
+        let points = curve.points.iter();
+        self.curve_points
+            .extend(points.map(|&parameters| FlatCurvePoint { curve: number, parameters }));
     }
 }

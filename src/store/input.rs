@@ -42,8 +42,7 @@ pub fn open_input(path: &Path, pipes: Pipes) -> io::Result<(File, u64)> {
     if metadata.is_file() {
         return Ok((file, metadata.len()));
     }
-    let is_of_shell = || OWN_FILES.iter().any(|it| path.to_string_lossy().starts_with(it));
-    if pipes == Pipes::OfShell && is_pipe(&metadata) && is_of_shell() {
+    if pipes == Pipes::OfShell && is_pipe(&metadata) && is_own(path) {
         wait_for_writers(&file)?;
         return Ok((file, ALL));
     }
@@ -53,6 +52,11 @@ pub fn open_input(path: &Path, pipes: Pipes) -> io::Result<(File, u64)> {
     };
     let why = format!("is {}{advice}", what_it_is(&metadata));
     Err(io::Error::new(io::ErrorKind::InvalidInput, why))
+}
+
+/// Whether a path names a file that the program has open itself.
+fn is_own(path: &Path) -> bool {
+    OWN_FILES.iter().any(|it| path.to_string_lossy().starts_with(it))
 }
 
 /// Opens a file to be read without waiting for those who write it.
@@ -106,6 +110,10 @@ mod tests {
     use super::*;
     use std::os::fd::AsRawFd;
 
+    fn refused(path: &Path, pipes: Pipes) -> String {
+        read_input(path, pipes).expect_err("refused").to_string()
+    }
+
     #[test]
     fn plain_files_and_pipes_of_the_shell_are_read_and_nothing_else_is_waited_for() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -115,8 +123,6 @@ mod tests {
         let fifo = folder.path().join("fifo");
         let ended = std::process::Command::new("mkfifo").arg(&fifo).status().expect("mkfifo");
         assert!(ended.success());
-        let refused =
-            |path: &Path, pipes| read_input(path, pipes).expect_err("refused").to_string();
         for pipes in [Pipes::Refused, Pipes::OfShell] {
             assert!(refused(&fifo, pipes).starts_with("is not a plain file, but a FIFO"));
             assert!(refused(folder.path(), pipes).starts_with("is a folder"));

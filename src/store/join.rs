@@ -7,8 +7,8 @@ use std::path::Path;
 use super::block_file::{BlockFile, Summary, Unusable};
 use super::block_folder::BlockFolder;
 use super::catalogue::{
-    BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, CASE, CYCLES, Entry, FAILURE_REASON,
-    FAILURE_TIME, MULTIPLIER_IMAG, MULTIPLIER_REAL, OUTCOME, PERIOD, RESIDUAL, end, starts,
+    BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, CASE, CYCLES, FAILURE_REASON, FAILURE_TIME,
+    MULTIPLIER_IMAG, MULTIPLIER_REAL, OUTCOME, PERIOD, RESIDUAL, end, starts,
 };
 use super::decode::Archive;
 use super::joined::{self, Column};
@@ -98,17 +98,20 @@ impl<'a> Blocks<'a> {
     /// What the cases have settled to, as far as they have been computed.
     pub fn final_motions(&self) -> Result<FinalMotions, StoreError> {
         let mut failed = None;
-        let of_file = |file| {
-            Ok(self.cases_of(file)?.into_iter().zip(final_states(file, self.study.base.model())?))
-        };
         // Block by block, so that no second list of all cases is held.
-        let known = self.files.iter().map_while(|file| {
-            let of_file: Result<_, StoreError> = of_file(file);
-            of_file.map_err(|said| failed = Some(said)).ok()
-        });
+        let known = self
+            .files
+            .iter()
+            .map_while(|file| self.final_motions_of(file).map_err(|said| failed = Some(said)).ok());
         let between = self.between.iter().map(|it| (it.index, final_motion(&it.orbit)));
         let motions = FinalMotions::of(self.study, known.flatten().chain(between));
         failed.map_or(Ok(motions), Err)
+    }
+
+    /// What the cases of a block file have settled to, with their indices.
+    fn final_motions_of(&self, file: &BlockFile) -> Result<Vec<(usize, FinalMotion)>, StoreError> {
+        let cases = self.cases_of(file)?.into_iter();
+        Ok(cases.zip(final_states(file, self.study.base.model())?).collect())
     }
 
     /// The cases that have been computed, each once, with their outcomes, by their numbers in files, and the cycles for which they
@@ -143,12 +146,12 @@ impl<'a> Blocks<'a> {
             let (columns, motions) = (columns?, final_states(file, self.study.base.model())?);
             for (place, (case, motion)) in self.cases_of(file)?.into_iter().zip(motions).enumerate()
             {
-                let output = |output: Output| {
+                let verdict = (motion.outcome, motion.period);
+                let point = MapPoint::of(self.study, verdict, |output| {
                     let column = of.iter().position(|other| *other == output);
                     column.map_or(f64::NAN, |column| columns[column][place])
-                };
-                let verdict = (motion.outcome, motion.period);
-                known.push((case, MapPoint::of(self.study, verdict, output)));
+                });
+                known.push((case, point));
             }
         }
         let between = self.between.iter();
@@ -179,15 +182,10 @@ impl<'a> Blocks<'a> {
     ) -> Result<ControlFlow<()>, StoreError> {
         // Of no case but those between tiles.
         let models = schema::columns(self.study, &self.between);
-        let column = |(name, model): (&String, &Variable)| self.column(name, model, &models);
-        let labels: Vec<Column> = models.variables.iter().map(column).collect();
-        let axes = self.study.shape().len();
-        begun(joined::count_slabs(&labels, axes));
-        let numbers = |column: &Column, slab: &Slab| {
-            let model = &models.variables[&column.name].values;
-            self.fill(&column.name, model, slab)
-        };
-        joined::write(frame, (&labels, axes), path, numbers, done)
+        let columns: Vec<Column> =
+            models.variables.iter().map(|(name, it)| self.column(name, it, &models)).collect();
+        begun(joined::count_slabs(&columns));
+        joined::write(frame, &columns, path, |it, slab| self.fill(it, &models, slab), done)
     }
 
     fn column(&self, name: &str, model: &Variable, between: &Dataset) -> Column {
@@ -201,12 +199,15 @@ impl<'a> Blocks<'a> {
         let all: Vec<i64> = ranges.chain(absent).collect();
         let range = all.iter().min().zip(all.iter().max()).map(|(&low, &high)| [low, high]);
         let inner = &model.values.shape()[1..];
-        let shape = self.study.shape().iter().chain(inner).copied().collect();
-        Column { name: name.to_owned(), label, shape, range }
+        let axes = self.study.shape();
+        let shape = axes.iter().chain(inner).copied().collect();
+        Column { name: name.to_owned(), label, shape, axes: axes.len(), range }
     }
 
-    /// The numbers of a variable at the cases of a slab.
-    fn fill(&self, name: &str, model: &Values, slab: &Slab) -> Result<Values, StoreError> {
+    /// The numbers of a column at the cases of a slab.
+    fn fill(&self, column: &Column, models: &Dataset, slab: &Slab) -> Result<Values, StoreError> {
+        let name = column.name.as_str();
+        let model = &models.variables[name].values;
         let shape = self.study.shape();
         let [first, last] = slab.bounds(&shape);
         let width: usize = model.shape()[1..].iter().product();
@@ -298,23 +299,35 @@ pub fn write_beside_cases(
     path: &Path,
 ) -> Result<(), StoreError> {
     let axes = study.shape().len();
-    let numbers = |column: &Column, slab: &Slab| match older.slab(&column.name, slab)? {
-        Some(variable) => Ok(variable.values),
-        None => Err(StoreError::Damaged { path: older.path().to_owned() }),
-    };
     let mut columns = Vec::new();
     for name in schema::numbers_of_case(study).into_keys() {
         let (label, shape) = (older.label(&name).cloned(), older.shape(&name)?);
         let Some((label, shape)) = label.zip(shape) else { continue };
-        let mut column = Column { name, label, shape, range: None };
-        for slab in column.slabs_of_integers(axes) {
-            let ends = column.range.into_iter().chain(numbers(&column, &slab)?.range()).flatten();
+        let mut column = Column { name, label, shape, axes, range: None };
+        for slab in column.slabs_of_integers() {
+            let own = kept(older, &column, &slab)?.range();
+            let ends = column.range.into_iter().chain(own).flatten();
             column.range = ends.clone().min().zip(ends.max()).map(|(low, high)| [low, high]);
         }
         columns.push(column);
     }
-    let proceed = || ControlFlow::Continue(());
-    joined::write(frame, (&columns, axes), path, numbers, proceed).map(drop)
+    // Nobody asks to stop.
+    let written = joined::write(
+        frame,
+        &columns,
+        path,
+        |column, slab| kept(older, column, slab),
+        || ControlFlow::Continue(()),
+    );
+    written.map(drop)
+}
+
+/// The numbers of a column that an older file has at the cases of a slab.
+fn kept(older: &Archive, column: &Column, slab: &Slab) -> Result<Values, StoreError> {
+    match older.slab(&column.name, slab)? {
+        Some(variable) => Ok(variable.values),
+        None => Err(StoreError::Damaged { path: older.path().to_owned() }),
+    }
 }
 
 /// A case that failed.
@@ -341,15 +354,18 @@ fn failures(
     let times = file.reals(FAILURE_TIME.name, 1)?;
     let codes = file.integers(FAILURE_REASON.name, 1)?;
     let names = reasons(model);
-    let failed = |(place, code): (usize, &i64)| {
-        let (_, reason) = names.iter().find(|(reason, _)| *reason as i64 == *code)?;
+    let mut failures = Vec::new();
+    for (place, code) in codes.into_iter().enumerate() {
+        let Some((_, reason)) = names.iter().find(|(reason, _)| *reason as i64 == code) else {
+            continue;
+        };
         let mut start = State::origin(model);
         for (coordinate, values) in model.start_coordinates().zip(&starts) {
             start[coordinate] = values[place];
         }
-        Some(FailedCase { index: cases[place], start, reason, time: times[place] })
-    };
-    Ok(codes.iter().enumerate().filter_map(failed).collect())
+        failures.push(FailedCase { index: cases[place], start, reason, time: times[place] });
+    }
+    Ok(failures)
 }
 
 /// The final states of the cases of a block file.
@@ -357,25 +373,22 @@ fn final_states(
     file: &BlockFile,
     model: &'static Description,
 ) -> Result<Vec<FinalMotion>, StoreError> {
-    let whole = |entry: Entry| file.integers(entry.name, 1);
-    let (outcomes, periods) = (whole(OUTCOME)?, whole(PERIOD)?);
+    let (outcomes, periods) = (file.integers(OUTCOME.name, 1)?, file.integers(PERIOD.name, 1)?);
     let end: Vec<Vec<f64>> =
         end(model).iter().map(|entry| file.reals(entry.name, 1)).collect::<Result<_, _>>()?;
     let residual = file.reals(RESIDUAL.name, 1)?;
     let count = end.len();
-    let [real, imag] =
-        [MULTIPLIER_REAL, MULTIPLIER_IMAG].map(|entry| file.reals(entry.name, count));
-    let (real, imag) = (real?, imag?);
-    let multipliers = |case: usize| -> Vec<Complex> {
-        let parts = (count * case..count * (case + 1)).map(|at| (real[at], imag[at]));
-        parts.map(|(re, im)| Complex { re, im }).collect()
-    };
-    let outcome = |code: i64| Outcome::ALL.iter().copied().find(|it| *it as i64 == code);
-    let state = |case: usize| {
+    let real = file.reals(MULTIPLIER_REAL.name, count)?;
+    let imag = file.reals(MULTIPLIER_IMAG.name, count)?;
+    let mut states = Vec::with_capacity(outcomes.len());
+    for (case, &code) in outcomes.iter().enumerate() {
+        let outcome = Outcome::ALL.into_iter().find(|it| *it as i64 == code);
+        let outcome = outcome.unwrap_or(Outcome::Failed);
         let section = end.iter().map(|column| column[case]).collect();
+        let parts = (count * case..count * (case + 1)).map(|at| (real[at], imag[at]));
+        let multipliers: Vec<Complex> = parts.map(|(re, im)| Complex { re, im }).collect();
         let period = periods[case] as u32;
-        let outcome = outcome(outcomes[case]).unwrap_or(Outcome::Failed);
-        FinalMotion::new(outcome, period, section, residual[case], &multipliers(case))
-    };
-    Ok((0..outcomes.len()).map(state).collect())
+        states.push(FinalMotion::new(outcome, period, section, residual[case], &multipliers));
+    }
+    Ok(states)
 }

@@ -27,11 +27,13 @@ pub struct Column {
     pub label: Variable,
     /// Its shape: the axes of the study, then what each case has several of.
     pub shape: Vec<usize>,
+    /// How many of its dimensions are axes of the study.
+    pub axes: usize,
     /// The least and the greatest of its numbers, if they are integers and there are any.
     pub range: Option<[i64; 2]>,
 }
 
-/// Keeps `frame` and the `columns`, which have `axes` axes, in the file at `path`, replacing an older one
+/// Keeps `frame` and the `columns` in the file at `path`, replacing an older one
 /// only by a complete new one; `numbers` gives what a slab has of a column, and `done` is called after each and
 /// may break off, which leaves nothing behind.
 ///
@@ -39,7 +41,7 @@ pub struct Column {
 /// report a full disk; at the end every slab is read back and compared by its checksum.
 pub fn write(
     frame: &Dataset,
-    (columns, axes): (&[Column], usize),
+    columns: &[Column],
     path: &Path,
     numbers: impl Fn(&Column, &Slab) -> Result<Values, StoreError>,
     done: impl Fn() -> ControlFlow<()>,
@@ -49,35 +51,41 @@ pub fn write(
         return Err(StoreError::Unfit { path: path.to_owned(), faults });
     }
     let path = &place(path)?;
-    let failed = |doing| move |said| StoreError::system(path, doing, said);
-    let mut temporary = temporary(path, folder(path)).map_err(failed("starting a new file"))?;
-    let encoding = |doing: &'static str| move |said| StoreError::encoding(path, doing, said);
-    let file = encode::blank(temporary.path(), |_| ()).map_err(encoding("starting a new file"))?;
-    make_room(path, BESIDE + frame_bytes(frame)).map_err(failed("making room for the results"))?;
+    let mut temporary =
+        temporary(path, folder(path)).map_err(StoreError::system(path, "starting a new file"))?;
+    let file = encode::blank(temporary.path(), |_| ())
+        .map_err(StoreError::encoding(path, "starting a new file"))?;
+    make_room(path, frame_bytes(frame))?;
     let scales = encode::lay_out(&file, frame, path)?;
     let mut sums = Vec::new();
     for column in columns {
         let array = begin(&file, column, &scales)
-            .map_err(|said| StoreError::encoding(path, format!("storing {}", column.name), said))?;
-        for slab in column.slabs(axes) {
+            .map_err(StoreError::encoding(path, format!("storing {}", column.name)))?;
+        for slab in column.slabs() {
             let values = numbers(column, &slab)?;
             sums.push(checksum(&values));
-            let bytes = column.element().bytes() * values.shape().iter().product::<usize>();
-            make_room(path, BESIDE + bytes as u64)
-                .map_err(failed("making room for the results"))?;
-            let put = column.element().write(&array, &values, hyperslab(&slab, &column.shape));
-            put.and_then(|()| file.flush()).map_err(encoding("storing a part of a variable"))?;
+            make_room(path, column.bytes_of(&values))?;
+            let part = hyperslab(&slab, &column.shape);
+            let put = column.element().write(&array, &values, part).and_then(|()| file.flush());
+            put.map_err(StoreError::encoding(path, "storing a part of a variable"))?;
             if done().is_break() {
                 return Ok(ControlFlow::Break(()));
             }
         }
     }
     drop(scales);
-    file.close().map_err(encoding("completing the file"))?;
-    checksum::include_in(temporary.as_file_mut()).map_err(failed("adding the checksum"))?;
-    temporary.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
-    check(&temporary, frame, (columns, axes), &sums, path)?;
+    file.close().map_err(StoreError::encoding(path, "completing the file"))?;
+    complete(&mut temporary, path)?;
+    check(&temporary, frame, columns, &sums, path)?;
     file::name(temporary, path).map(ControlFlow::Continue)
+}
+
+/// Adds the checksum to a file that is written, and forces the file to the disk.
+fn complete(temporary: &mut NamedTempFile, path: &Path) -> Result<(), StoreError> {
+    checksum::include_in(temporary.as_file_mut())
+        .map_err(StoreError::system(path, "adding the checksum"))?;
+    let synced = temporary.as_file().sync_all();
+    synced.map_err(StoreError::system(path, "forcing the file to the disk"))
 }
 
 impl Column {
@@ -85,16 +93,22 @@ impl Column {
         Element::of(&self.label, self.range)
     }
 
+    /// Bytes of some of its numbers in the file.
+    fn bytes_of(&self, values: &Values) -> u64 {
+        (self.element().bytes() * values.shape().iter().product::<usize>()) as u64
+    }
+
     /// The slabs of which its range is that of all numbers; none if they are reals.
-    pub fn slabs_of_integers(&self, axes: usize) -> Vec<Slab> {
+    pub fn slabs_of_integers(&self) -> Vec<Slab> {
         match self.label.values {
-            Values::Integer(_) => self.slabs(axes),
+            Values::Integer(_) => self.slabs(),
             Values::Real(_) => Vec::new(),
         }
     }
 
     /// The slabs in which it is written, none of which shares a chunk with another.
-    fn slabs(&self, axes: usize) -> Vec<Slab> {
+    fn slabs(&self) -> Vec<Slab> {
+        let axes = self.axes;
         let width = self.shape[axes..].iter().product::<usize>().max(1);
         let chunk = encode::chunk_shape(&self.shape, self.element().bytes());
         slabs(&self.shape[..axes], &chunk[..axes], (MOST_NUMBERS / width).max(1))
@@ -102,14 +116,14 @@ impl Column {
 }
 
 /// Pieces of all columns together.
-pub fn count_slabs(columns: &[Column], axes: usize) -> usize {
-    columns.iter().map(|column| column.slabs(axes).len()).sum()
+pub fn count_slabs(columns: &[Column]) -> usize {
+    columns.iter().map(|column| column.slabs().len()).sum()
 }
 
 fn begin(file: &hdf5::File, column: &Column, scales: &Scales) -> hdf5::Result<Array> {
     let array = column.element().create(file, &column.name, &column.shape)?;
     encode::label(&array, &column.label, column.element())?;
-    encode::attach(&array, (&column.name, &column.label, column.element()), scales)?;
+    encode::attach(&array, &column.name, &column.label, column.element(), scales)?;
     Ok(array)
 }
 
@@ -121,8 +135,13 @@ fn frame_bytes(frame: &Dataset) -> u64 {
     (size_of::<f64>() * numbers + texts) as u64
 }
 
-/// Checks that so many bytes can be written beside `path`, on systems that can say so.
-fn make_room(path: &Path, bytes: u64) -> io::Result<()> {
+/// Checks that so many bytes of numbers can be written beside `path`, with what HDF5 may add, on systems that can say so.
+fn make_room(path: &Path, bytes: u64) -> Result<(), StoreError> {
+    try_room(path, BESIDE + bytes).map_err(StoreError::system(path, "making room for the results"))
+}
+
+/// Writes so many bytes beside `path` and removes them.
+fn try_room(path: &Path, bytes: u64) -> io::Result<()> {
     let file = temporary(path, folder(path))?;
     #[cfg(unix)]
     {
@@ -140,18 +159,22 @@ fn make_room(path: &Path, bytes: u64) -> io::Result<()> {
 
 /// The checksum of numbers in their order.
 fn checksum(values: &Values) -> u32 {
+    match values {
+        Values::Real(reals) => checksum_of(reals.iter().map(|it| it.to_bits().to_le_bytes())),
+        Values::Integer(integers) => checksum_of(integers.iter().map(|it| it.to_le_bytes())),
+    }
+}
+
+/// The checksum of the bytes of numbers, of which many are taken at a time.
+fn checksum_of(numbers: impl Iterator<Item = [u8; 8]>) -> u32 {
     let mut sum = crc32fast::Hasher::new();
     let mut bytes = Vec::with_capacity(1 << 16);
-    let mut add = |number: [u8; 8]| {
+    for number in numbers {
         bytes.extend_from_slice(&number);
         if bytes.len() >= 1 << 16 {
             sum.update(&bytes);
             bytes.clear();
         }
-    };
-    match values {
-        Values::Real(reals) => reals.iter().for_each(|it| add(it.to_bits().to_le_bytes())),
-        Values::Integer(integers) => integers.iter().for_each(|it| add(it.to_le_bytes())),
     }
     sum.update(&bytes);
     sum.finalize()
@@ -161,28 +184,41 @@ fn checksum(values: &Values) -> u32 {
 fn check(
     temporary: &NamedTempFile<File>,
     frame: &Dataset,
-    (columns, axes): (&[Column], usize),
+    columns: &[Column],
     sums: &[u32],
     path: &Path,
 ) -> Result<(), StoreError> {
-    let unequal = |difference: String| StoreError::Unequal { path: path.to_owned(), difference };
+    match first_difference(temporary, frame, columns, sums)? {
+        Some(difference) => Err(StoreError::Unequal { path: path.to_owned(), difference }),
+        None => Ok(()),
+    }
+}
+
+/// Where a file that was written differs from what was to be written, if it does.
+fn first_difference(
+    temporary: &NamedTempFile<File>,
+    frame: &Dataset,
+    columns: &[Column],
+    sums: &[u32],
+) -> Result<Option<String>, StoreError> {
     let archive = match file::open(temporary.path()) {
         Ok(archive) => archive,
-        Err(refused) => return Err(unequal(refused.to_string())),
+        Err(refused) => return Ok(Some(refused.to_string())),
     };
-    let is_column = |name: &str| columns.iter().any(|column| column.name == name);
-    if let Some(difference) = difference(frame, &archive.dataset(|name, _| !is_column(name))?) {
-        return Err(unequal(difference));
+    let kept = archive.dataset(|name, _| columns.iter().all(|column| column.name != name))?;
+    let difference = difference(frame, &kept);
+    if difference.is_some() {
+        return Ok(difference);
     }
     let mut sums = sums.iter();
     for column in columns {
-        for slab in column.slabs(axes) {
+        for slab in column.slabs() {
             if !same(&archive, column, &slab, sums.next()) {
-                return Err(unequal(format!("the values of {}", column.name)));
+                return Ok(Some(format!("the values of {}", column.name)));
             }
         }
     }
-    Ok(())
+    Ok(None)
 }
 
 /// Whether a slab reads back with its checksum and its labels.

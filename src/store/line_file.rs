@@ -47,8 +47,8 @@ pub fn read_lines(path: &Path) -> Result<Lines, StoreError> {
     match open_own(path, options.read(true)) {
         Err(said) if said.kind() == io::ErrorKind::NotFound => Ok(Lines::default()),
         opened => {
-            let failed = |said| StoreError::system(path, "reading lines", said);
-            Ok(opened.and_then(|mut file| lines(&mut file)).map_err(failed)?.0)
+            let found = opened.and_then(|mut file| lines(&mut file));
+            Ok(found.map_err(StoreError::system(path, "reading lines"))?.0)
         }
     }
 }
@@ -66,7 +66,7 @@ impl LineFile {
     /// Fails if something else than a plain file is there, a link among them, if another process has it open here, or if the system
     /// refuses.
     pub fn open(path: &Path) -> Result<(LineFile, Lines), StoreError> {
-        let failed = |said| StoreError::system(path, "opening a file of lines", said);
+        let failed = StoreError::system(path, "opening a file of lines");
         let mut options = OpenOptions::new();
         let opened = open_own(path, options.read(true).write(true).create(true).truncate(false));
         let mut file = opened.map_err(failed)?;
@@ -81,19 +81,17 @@ impl LineFile {
     ///
     /// Fails if the system refuses; then no part of it stays, as far as the system allows.
     pub fn add(&self, object: &Value) -> Result<(), StoreError> {
-        let failed = |said| StoreError::system(&self.path, "adding a line", said);
         let line = sealed(object) + "\n";
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
-        open.add(line.as_bytes()).map_err(failed)
+        open.add(line.as_bytes()).map_err(StoreError::system(&self.path, "adding a line"))
     }
 
     /// Removes all lines.
     ///
     /// Fails if the system refuses.
     pub fn clear(&self) -> Result<(), StoreError> {
-        let failed = |said| StoreError::system(&self.path, "removing lines", said);
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
-        open.file.set_len(0).map_err(failed)?;
+        open.file.set_len(0).map_err(StoreError::system(&self.path, "removing lines"))?;
         open.end = 0;
         Ok(())
     }

@@ -42,6 +42,6 @@ pub fn try_lock(file: &File, lock: Lock) -> io::Result<Tried> {
 }
 
 fn has_no_locks(said: &io::Error) -> bool {
-    let is_code = |code| NO_LOCKS.contains(&code);
-    said.kind() == io::ErrorKind::Unsupported || said.raw_os_error().is_some_and(is_code)
+    said.kind() == io::ErrorKind::Unsupported
+        || said.raw_os_error().is_some_and(|code| NO_LOCKS.contains(&code))
 }

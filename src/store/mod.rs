@@ -34,7 +34,9 @@ mod size;
 mod candidates;
 mod case_table;
 mod checksum;
+mod columns;
 mod watched;
+mod words;
 mod constraint;
 pub mod block_file;
 

@@ -19,15 +19,16 @@ pub fn arrays(file: &File) -> hdf5::Result<Vec<(String, Array)>> {
         names.push((name.to_owned(), link.link_type));
         Ok(())
     })?;
-    let array = |(name, link): (String, LinkType)| {
+    let mut arrays = Vec::new();
+    for (name, link) in names {
         if link != LinkType::Hard || file.loc_type_by_name(&name)? != LocationType::Dataset {
             return Err(format!("{name} is not an array in the file itself").into());
         }
         let array = file.dataset(&name)?;
         check(&array, &name, file)?;
-        Ok((name, array))
-    };
-    names.into_iter().map(array).collect()
+        arrays.push((name, array));
+    }
+    Ok(arrays)
 }
 
 /// Refuses an array whose numbers lie elsewhere, or are more than the bytes it has in the file can stand for.

@@ -38,29 +38,33 @@ pub(super) fn open_own(path: &Path, options: &mut OpenOptions) -> io::Result<Fil
 ///
 /// Fails if something else than a plain file is in its place, if a link leads to no file, or if the name is too long.
 pub fn place(path: &Path) -> Result<PathBuf, StoreError> {
-    let unfit = |why: String| Err(StoreError::NoPlace { path: path.to_owned(), why });
     let name = path.file_name().map_or(0, |name| name.len());
     if name > LONGEST_NAME {
-        return unfit(format!("the name has {name} bytes; {LONGEST_NAME} are the most"));
+        return Err(unfit(path, format!("the name has {name} bytes; {LONGEST_NAME} are the most")));
     }
     let found = match std::fs::symlink_metadata(path) {
         Ok(found) => found,
         Err(said) if said.kind() == io::ErrorKind::NotADirectory => {
             let file = path.ancestors().skip(1).find(|it| it.exists()).unwrap_or(path);
-            return unfit(format!("{} is a file, not a folder", printable(file)));
+            return Err(unfit(path, format!("{} is a file, not a folder", printable(file))));
         }
         Err(_) => return Ok(path.to_owned()),
     };
     let is_link = found.is_symlink();
     match std::fs::metadata(path) {
-        Ok(it) if it.is_file() && is_link => std::fs::canonicalize(path)
-            .map_err(|said| StoreError::system(path, "following the link", said)),
-        Ok(it) if it.is_file() => Ok(path.to_owned()),
-        Ok(it) if it.is_dir() => unfit("is a folder; name a file".to_owned()),
-        Ok(_) => unfit("is not a plain file; name a file".to_owned()),
-        Err(_) if is_link => {
-            unfit("is a link that leads to no file; remove it, or name another file".to_owned())
+        Ok(it) if it.is_file() && is_link => {
+            std::fs::canonicalize(path).map_err(StoreError::system(path, "following the link"))
         }
-        Err(said) => Err(StoreError::system(path, "looking at what is there", said)),
+        Ok(it) if it.is_file() => Ok(path.to_owned()),
+        Ok(it) if it.is_dir() => Err(unfit(path, "is a folder; name a file")),
+        Ok(_) => Err(unfit(path, "is not a plain file; name a file")),
+        Err(_) if is_link => {
+            Err(unfit(path, "is a link that leads to no file; remove it, or name another file"))
+        }
+        Err(said) => Err(StoreError::system(path, "looking at what is there")(said)),
     }
+}
+
+fn unfit(path: &Path, why: impl Into<String>) -> StoreError {
+    StoreError::NoPlace { path: path.to_owned(), why: why.into() }
 }

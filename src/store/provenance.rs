@@ -38,22 +38,27 @@ pub fn is_ours(provenance: &BTreeMap<String, String>) -> bool {
 
 /// The program of a provenance: name, version and commit.
 pub fn program(provenance: &BTreeMap<String, String>) -> String {
-    let value = |key: &str| provenance.get(key).map_or("unknown", String::as_str);
-    format!("{} (commit {})", value("source"), value("commit"))
+    format!("{} (commit {})", value(provenance, "source"), value(provenance, "commit"))
+}
+
+fn value<'a>(provenance: &'a BTreeMap<String, String>, key: &str) -> &'a str {
+    provenance.get(key).map_or("unknown", String::as_str)
 }
 
 /// A provenance as one name without blanks: program, commit, architecture and the widest vector instructions.
 pub fn maker(provenance: &BTreeMap<String, String>) -> String {
     let keys = ["source", "commit", "host_architecture", "host_instruction_set"];
-    let values = keys.map(|key| provenance.get(key).map_or("unknown", String::as_str));
-    values.join("@").replace(' ', "-")
+    keys.map(|key| value(provenance, key)).join("@").replace(' ', "-")
 }
 
 /// The time as ISO 8601 in UTC, to the second; where files are to be the same byte for byte, as the
 /// environment variable SOURCE_DATE_EPOCH has it [s since 1970], which reproducible-builds.org defines.
 fn now() -> String {
-    let elapsed = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs());
-    iso(given_time().ok().flatten().unwrap_or_else(elapsed))
+    iso(given_time().ok().flatten().unwrap_or_else(seconds_since_1970))
+}
+
+fn seconds_since_1970() -> u64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs())
 }
 
 /// The time that the environment gives for files, in the same form, if it gives one.

@@ -161,6 +161,11 @@ impl Table<'_> {
         Values::Real(self.array(Some(length), values))
     }
 
+    /// A part of each of so many multipliers per case.
+    fn multipliers(&self, count: usize, part: fn(&Complex) -> f64) -> Values {
+        self.rows(count, |orbit, i| orbit.certificate.multipliers.get(i).map(part))
+    }
+
     /// Adds a variable over the cases, with what each case has several of.
     fn put<'d>(&self, dataset: &'d mut Dataset, entry: Entry, values: Values) -> &'d mut Variable {
         let dimensions: Vec<&str> = std::iter::once(CASE).chain(entry.dimensions()).collect();
@@ -178,8 +183,8 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
     }
     if let Some(directions) = study.direction_axis() {
         let codes = directions.iter().map(|&direction| direction as i64).collect();
-        let present = |code: &i64| directions.iter().any(|&it| it as i64 == *code);
-        let flags = DIRECTION.flags().into_iter().filter(|(code, _)| present(code)).collect();
+        let mut flags = DIRECTION.flags();
+        flags.retain(|(code, _)| directions.iter().any(|&it| it as i64 == *code));
         let axis = [DIRECTION.name.to_owned()].to_vec();
         let variable = Variable::of(DIRECTION, axis, Values::integers(codes)).with_flags(flags);
         dataset.coordinates.push((DIRECTION.name.to_owned(), variable));
@@ -198,8 +203,7 @@ fn add_constants(dataset: &mut Dataset, study: &Study) {
             Coordinate::StartPhase => study.start_phase,
             Coordinate::SectionPhase => study.section_phase,
         };
-        let values = Values::Real(ArrayD::from_elem(IxDyn(&[]), value));
-        dataset.put(Entry::of_coordinate(constant), &[], values);
+        dataset.put(Entry::of_coordinate(constant), &[], Values::real(value));
     }
 }
 
@@ -220,14 +224,12 @@ fn add_certificates(dataset: &mut Dataset, table: &Table<'_>) {
     let model = table.study.base.model();
     let count = model.section.len();
     dataset.put_coordinate(MULTIPLIER, Values::count(count));
-    let of = |part: fn(&Complex) -> f64| {
-        table.rows(count, move |orbit, i| orbit.certificate.multipliers.get(i).map(part))
-    };
-    table.put(dataset, MULTIPLIER_REAL, of(|multiplier| multiplier.re));
-    table.put(dataset, MULTIPLIER_IMAG, of(|multiplier| multiplier.im));
+    table.put(dataset, MULTIPLIER_REAL, table.multipliers(count, |it| it.re));
+    table.put(dataset, MULTIPLIER_IMAG, table.multipliers(count, |it| it.im));
     for (i, entry) in neutral(model).into_iter().enumerate() {
-        let part = |orbit: &Orbit| orbit.certificate.neutral.map_or(f64::NAN, |along| along[i]);
-        table.put(dataset, entry, table.reals(part));
+        let values =
+            table.reals(|orbit| orbit.certificate.neutral.map_or(f64::NAN, |along| along[i]));
+        table.put(dataset, entry, values);
     }
 }
 

@@ -63,12 +63,11 @@ impl Sample<'_> {
     /// Bytes of the file, whose compressed numbers take so many times the bytes of those of the sample.
     fn file_bytes(&self, factor: f64) -> Result<f64, StoreError> {
         let cases = self.study.cases();
-        let blank = |cases| Sample { cases, records: Vec::new(), places: Vec::new(), ..*self };
         // What stands in the file of a study without cases, as the values that were drawn, is there for all of them.
         let of_frame: BTreeSet<String> = schema::frame(self.study).variables.into_keys().collect();
-        let without = bytes(&blank(0).dataset())?;
+        let without = bytes(&self.blank(0).dataset())?;
         // An array that is compressed takes room even where all its numbers are the same.
-        let same = blank(cases.min(COMPRESSED_CASES)).dataset();
+        let same = self.blank(cases.min(COMPRESSED_CASES)).dataset();
         let beside = bytes(&same)? - without;
         let coordinates = same.coordinates.iter().filter(|(name, _)| name == CASE);
         let variables = same.variables.iter().filter(|(name, _)| !of_frame.contains(*name));
@@ -90,6 +89,11 @@ impl Sample<'_> {
             };
         }
         Ok(without + beside + numbers)
+    }
+
+    /// So many cases of the study, none of which has been computed.
+    fn blank(&self, cases: usize) -> Sample<'_> {
+        Sample { study: self.study, cases, records: Vec::new(), places: Vec::new() }
     }
 
     /// The dataset of the study, with these of its cases only, along one dimension.
@@ -154,11 +158,11 @@ fn compressed_bytes(shape: &[usize], variable: &Variable) -> usize {
     let size: usize = of_case.iter().product();
     let mut bytes = 0;
     for first in (0..cases).step_by(together) {
-        let cases = first..(first + together).min(cases);
         for places in chunks(of_case, of_chunk) {
-            let of_case = |case: usize| places.iter().map(move |place| case * size + place);
-            let chunk: Vec<[u8; 8]> =
-                cases.clone().flat_map(of_case).map(|place| numbers[place]).collect();
+            let mut chunk = Vec::new();
+            for case in first..(first + together).min(cases) {
+                chunk.extend(places.iter().map(|place| numbers[case * size + place]));
+            }
             bytes += deflated_bytes(&chunk, width);
         }
     }
@@ -173,8 +177,11 @@ fn chunks(shape: &[usize], chunk: &[usize]) -> Vec<Vec<usize>> {
         for places in &all {
             for first in (0..length).step_by(along.max(1)) {
                 let part = first..(first + along).min(length);
-                let at = |place: usize| part.clone().map(move |it| place * length + it);
-                split.push(places.iter().copied().flat_map(at).collect());
+                let mut of_chunk = Vec::new();
+                for place in places {
+                    of_chunk.extend(part.clone().map(|it| place * length + it));
+                }
+                split.push(of_chunk);
             }
         }
         all = split;

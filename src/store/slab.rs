@@ -64,36 +64,39 @@ impl Slab {
 
     /// The least and the greatest index of its cases in a study of the given shape.
     pub fn bounds(&self, shape: &[usize]) -> [usize; 2] {
-        let index = |last: bool| {
-            (0..shape.len()).fold(0, |index, axis| {
-                let more = if last { self.count[axis] - 1 } else { 0 };
-                index * shape[axis] + self.start[axis] + more
-            })
-        };
-        [index(false), index(true)]
+        let ends = self.start.iter().zip(&self.count).map(|(start, count)| start + count - 1);
+        [index(shape, self.start.iter().copied()), index(shape, ends)]
     }
+
+    /// Its parts of so many positions along an axis, of which the last may have fewer.
+    fn divided(&self, axis: usize, length: usize) -> Vec<Slab> {
+        let mut parts = Vec::new();
+        for from in (0..self.count[axis]).step_by(length) {
+            let mut part = self.clone();
+            part.start[axis] += from;
+            part.count[axis] = length.min(self.count[axis] - from);
+            parts.push(part);
+        }
+        parts
+    }
+}
+
+/// The index of the case at a position in a study of the given shape.
+fn index(shape: &[usize], position: impl Iterator<Item = usize>) -> usize {
+    shape.iter().zip(position).fold(0, |index, (length, at)| index * length + at)
 }
 
 /// Divides a study of the given shape into slabs of at most `most` cases, or of one chunk if that has more;
 /// no chunk is in two slabs.
 pub fn slabs(shape: &[usize], chunk: &[usize], most: usize) -> Vec<Slab> {
     let mut slabs = vec![Slab::whole(shape)];
-    for axis in 0..shape.len() {
+    for (axis, side) in chunk.iter().enumerate() {
         if slabs[0].cases() <= most {
             break;
         }
         let across = slabs[0].cases() / slabs[0].count[axis];
-        let length = (most / across / chunk[axis]).max(1) * chunk[axis];
-        let divide = |slab: &Slab| {
-            let slab = slab.clone();
-            (0..shape[axis]).step_by(length).map(move |from| {
-                let mut slab = slab.clone();
-                slab.start[axis] = from;
-                slab.count[axis] = length.min(shape[axis] - from);
-                slab
-            })
-        };
-        slabs = slabs.iter().flat_map(divide).collect();
+        let length = (most / across / side).max(1) * side;
+        slabs = slabs.iter().flat_map(|slab| slab.divided(axis, length)).collect();
     }
     slabs
 }

@@ -17,8 +17,7 @@ const END: std::ops::Range<usize> = 40..48;
 ///
 /// Nothing is moved, and there is no answer, where the superblock has another version.
 pub fn extend(head: &mut [u8], bytes: usize) -> Option<u64> {
-    let is_known = |(place, value): (usize, u8)| head.get(place) == Some(&value);
-    if !is_known(VERSION) || !is_known(OFFSETS) {
+    if [VERSION, OFFSETS].iter().any(|(place, value)| head.get(*place) != Some(value)) {
         return None;
     }
     let field = head.get_mut(END)?;

@@ -103,7 +103,7 @@ fn along_one_axis(study: &Study, cases: usize) -> Study {
 /// The time that blocks with some records take to be packed and joined, beside those of a study that are missing.
 fn trial(study: &Study, records: &[Record]) -> Result<Storing, StoreError> {
     let folder = tempfile::tempdir()
-        .map_err(|said| StoreError::system(&std::env::temp_dir(), "making a folder", said))?;
+        .map_err(StoreError::system(&std::env::temp_dir(), "making a folder"))?;
     let blocks = BlockFolder::enter(&folder.path().join("blocks"), study, Company::Alone, false)?;
     let begun = Instant::now();
     let mut kept = 0;
@@ -116,9 +116,9 @@ fn trial(study: &Study, records: &[Record]) -> Result<Storing, StoreError> {
     let packing = begun.elapsed().as_secs_f64();
     let begun = Instant::now();
     let blocks = Blocks::open(&blocks, study, 0..study.blocks());
-    let proceed = || ControlFlow::Continue(());
+    let file = folder.path().join("trial.h5");
     // Nobody asks to stop.
-    let _ = blocks.join(&blocks.frame(), &folder.path().join("trial.h5"), |_| (), proceed)?;
+    let _ = blocks.join(&blocks.frame(), &file, |_| (), || ControlFlow::Continue(()))?;
     let packing = packing * records.len() as f64 / kept as f64;
     Ok(Storing { packing, joining: begun.elapsed().as_secs_f64() })
 }

@@ -3,7 +3,7 @@
 use super::cases::{HISTORY_TIME, IMPACT_POINT, POINT};
 use super::entry::{Entry, Extent};
 use super::tables::{EDGE_CYCLE, EDGE_INDEX};
-use crate::description::{Description, Output, Parameter, Signal, Source};
+use crate::description::{Description, Output, Parameter, Source};
 use crate::quantity::Quantity;
 use crate::study::Coordinate;
 
@@ -51,10 +51,14 @@ pub fn histories(model: &'static Description) -> Vec<Entry> {
 
 /// What figures derive from what is kept of a motion: signals, and groups of them.
 pub fn derived(model: &'static Description) -> Vec<Entry> {
-    let is_derived = |it: &&Signal| !matches!(it.source, Source::Kept(_));
-    let signals = model.motion.signals.iter().filter(is_derived).map(|it| it.quantity);
+    let signals = model.motion.signals.iter();
+    let derived = signals.filter(|it| !matches!(it.source, Source::Kept(_)));
     let groups = model.motion.groups.iter().map(|it| it.quantity);
-    signals.chain(groups).map(|quantity| Entry::of(quantity, Extent::Derived)).collect()
+    derived
+        .map(|it| it.quantity)
+        .chain(groups)
+        .map(|quantity| Entry::of(quantity, Extent::Derived))
+        .collect()
 }
 
 /// The section points of saddles between basins.
