@@ -54,15 +54,15 @@ impl Difference {
     /// Between these samples under a drive of this `cycle` [s].
     pub fn new(
         signal: Signal,
-        (times, cycle): (&[f64], f64),
+        times: &[f64],
+        cycle: f64,
         recorded: Vec<f64>,
         simulated: Vec<f64>,
     ) -> Difference {
-        let level = |values: &[f64]| match advances(signal) {
-            true => without_line(times, values, own_progression(times, values, cycle)),
-            false => without_line(times, values, 0.0),
-        };
-        let own = [level(&recorded), level(&simulated)];
+        let own = [&recorded, &simulated].map(|values| {
+            let slope = if advances(signal) { own_progression(times, values, cycle) } else { 0.0 };
+            without_line(times, values, slope)
+        });
         let spread = own.each_ref().map(|it| mean_square(it).sqrt());
         let varies = [(&recorded, spread[0]), (&simulated, spread[1])].map(|(values, spread)| {
             spread > VARIES * values.iter().fold(0.0, |most: f64, it| most.max(it.abs()))
@@ -80,8 +80,8 @@ fn doubt([recorded, simulated]: &[Vec<f64>; 2], spread: [f64; 2]) -> Option<Doub
     let product = recorded.iter().zip(simulated).map(|(a, b)| a * b).sum::<f64>();
     let correlation = product / (recorded.len() as f64 * spread[0] * spread[1]);
     let ratio = spread[0] / spread[1];
-    let is_thousand = |ratio: f64| (THOUSAND[0]..=THOUSAND[1]).contains(&ratio);
-    if is_thousand(ratio) || is_thousand(1.0 / ratio) {
+    let [least, greatest] = THOUSAND;
+    if [ratio, 1.0 / ratio].iter().any(|it| (least..=greatest).contains(it)) {
         return Some(Doubt::Unit(ratio));
     }
     (correlation < OPPOSITE).then_some(Doubt::Sign)
@@ -113,7 +113,7 @@ mod tests {
         let wave = |t: &f64| 1e-3 * (std::f64::consts::TAU * t / 0.1).sin();
         let simulated: Vec<f64> = times.iter().map(|t| 0.01 * t + wave(t)).collect();
         let recorded = times.iter().map(|t| recorded(*t, wave(t))).collect();
-        let difference = Difference::new(signal, (&times, 0.1), recorded, simulated);
+        let difference = Difference::new(signal, &times, 0.1, recorded, simulated);
         (difference.errors, difference.doubt)
     }
 

@@ -67,8 +67,8 @@ impl Beginning {
         let times: Vec<f64> = kept.iter().map(|&i| times[i]).collect();
         let values: Vec<f64> = kept.iter().map(|&i| values[i]).collect();
         let window = first_window(values.len());
-        let line = |derivative| smoothed(&times, &values, window, derivative).ok();
-        let (levels, rates, curvatures) = (line(0)?[0], line(1)?[0], line(2)?[0]);
+        let first = [0, 1, 2].map(|order| Some(smoothed(&times, &values, window, order).ok()?[0]));
+        let [levels, rates, curvatures] = [first[0]?, first[1]?, first[2]?];
         let span = times[window.samples - 1] - times[0];
         // The parabola goes on from the first sample that is kept back to the first one, where the errors add up at most.
         let back = times[0] - beginning;
@@ -133,12 +133,14 @@ struct Parabola<'r> {
 
 impl Parabola<'_> {
     fn at(&self, time: f64) -> f64 {
-        let weight = |place: usize| {
-            let own = self.times[place];
-            let others = self.through.iter().filter(|&&it| it != place);
-            others.map(|&it| (time - self.times[it]) / (own - self.times[it])).product::<f64>()
-        };
-        self.through.iter().map(|&place| self.values[place] * weight(place)).sum()
+        self.through.iter().map(|&place| self.values[place] * self.weight(place, time)).sum()
+    }
+
+    /// What the value of a sample counts at a time.
+    fn weight(&self, place: usize, time: f64) -> f64 {
+        let own = self.times[place];
+        let others = self.through.iter().filter(|&&it| it != place);
+        others.map(|&it| (time - self.times[it]) / (own - self.times[it])).product()
     }
 }
 

@@ -148,7 +148,7 @@ pub fn compare(
         }
         None => None,
     };
-    Ok(record.told(sampling, &settled, (drive, motion), differences))
+    Ok(record.told(sampling, &settled, drive, motion, differences))
 }
 
 /// The root of the sum of the squares of the errors of some signals, displacements without their progressions.
@@ -185,17 +185,21 @@ impl Record<'_> {
         let names: Vec<Signal> = self.signals.iter().map(|it| it.0).collect();
         let samples = sampled(motion, times, &names, &[], TOLERANCE)
             .map_err(|why| format!("the simulation cannot be followed: {why:?}"))?;
-        let first = times.iter().take_while(|time| **time < self.period).count().max(1);
-        let difference = |((signal, recorded), mut simulated): (&Measured, Vec<f64>)| {
-            let recorded = recorded[..count].to_vec();
-            if advances(*signal) {
-                let mean = |values: &[f64]| values[..first].iter().sum::<f64>() / first as f64;
-                let offset = mean(&recorded) - mean(&simulated);
-                simulated.iter_mut().for_each(|value| *value += offset);
-            }
-            Difference::new(*signal, (times, self.cycle), recorded, simulated)
-        };
-        Ok(self.signals.iter().zip(samples.values).map(difference).collect())
+        let both = self.signals.iter().zip(samples.values);
+        Ok(both.map(|(measured, simulated)| self.difference(measured, simulated)).collect())
+    }
+
+    /// The first samples of a signal beside those that are simulated, which begin at the same mean where they advance.
+    fn difference(&self, measured: &Measured, mut simulated: Vec<f64>) -> Difference {
+        let (signal, recorded) = measured;
+        let times = &self.times[..simulated.len()];
+        let recorded = recorded[..simulated.len()].to_vec();
+        if advances(*signal) {
+            let first = times.iter().take_while(|time| **time < self.period).count().max(1);
+            let offset = mean(&recorded[..first]) - mean(&simulated[..first]);
+            simulated.iter_mut().for_each(|value| *value += offset);
+        }
+        Difference::new(*signal, times, self.cycle, recorded, simulated)
     }
 
     /// All that is told of the record beside a motion.
@@ -203,21 +207,18 @@ impl Record<'_> {
         &self,
         sampling: Sampling,
         settled: &Settled,
-        (drive, motion): (Option<Drive>, Started),
+        drive: Option<Drive>,
+        motion: Started,
         mut differences: Vec<Difference>,
     ) -> Comparison {
         if drive.as_ref().is_some_and(|it| it.may_be_inverted) {
             // What is inverted then is the drive.
-            let sign = |it: &&mut Difference| it.doubt == Some(Doubt::Sign);
-            differences.iter_mut().filter(sign).for_each(|it| it.doubt = None);
+            drop_doubts_of_sign(&mut differences);
         }
-        let repeating = repeating(self.times, self.cycle, &differences);
         let whole = Whole::new(self.times, sampling.whole_part(self.times));
-        let recorded_period =
-            repeating.and_then(|it| period_of(&whole.times, whole.of(&it), self.cycle));
-        let x2 = differences.iter().find(|it| it.signal == Signal::X2 && it.errors.is_some());
-        let recorded_speed =
-            x2.and_then(|it| progression(self.times, &it.recorded, self.cycle, recorded_period));
+        let recorded_period = self.recorded_period(&whole, &differences);
+        let recorded_speed = varying(&differences, Signal::X2)
+            .and_then(|it| progression(self.times, &it.recorded, self.cycle, recorded_period));
         let is_countable = whole.last() >= LEAST_COUNTED * self.cycle
             && sampling.interval * LEAST_SAMPLES <= self.cycle;
         let counted = is_countable.then(|| self.counted(&whole, &motion, &differences));
@@ -242,6 +243,12 @@ impl Record<'_> {
         }
     }
 
+    /// The period of the record, by what repeats itself in it [cycles].
+    fn recorded_period(&self, whole: &Whole, differences: &[Difference]) -> Option<u64> {
+        let repeating = repeating(self.times, self.cycle, differences)?;
+        period_of(&whole.times, whole.of(&repeating), self.cycle)
+    }
+
     /// Pulses of the acceleration per cycle, recorded and simulated, and recorded impacts, where they can be seen.
     fn counted(
         &self,
@@ -249,19 +256,15 @@ impl Record<'_> {
         motion: &Started,
         differences: &[Difference],
     ) -> (Option<[f64; 2]>, Option<f64>) {
-        let of = |signal: Signal| differences.iter().find(|it| it.signal == signal);
         let contact = contact_period(&motion.parameters);
-        // The simulated motion has the cycles of the study.
-        let counted = |values: &[f64], cycle: f64| {
-            let Spikes { found, margin } = spikes(&whole.times, whole.of(values), contact, cycle)?;
-            let found: Vec<f64> = found.iter().map(|it| it.time).collect();
-            Some(per_cycle(&found, cycle, whole.last() - margin))
-        };
-        let spikes = of(Signal::A1).and_then(|it| {
-            Some([counted(&it.recorded, self.cycle)?, counted(&it.simulated, self.period)?])
+        let a1 = differences.iter().find(|it| it.signal == Signal::A1);
+        let spikes = a1.and_then(|it| {
+            // The simulated motion has the cycles of the study.
+            let simulated = whole.spikes_per_cycle(&it.simulated, contact, self.period);
+            Some([whole.spikes_per_cycle(&it.recorded, contact, self.cycle)?, simulated?])
         });
         let delta = motion.parameters[Parameter::Delta];
-        let impacts = of(Signal::R).map(|it| {
+        let impacts = differences.iter().find(|it| it.signal == Signal::R).map(|it| {
             let found = contacts(&whole.times, whole.of(&it.recorded), delta);
             per_cycle(&found, self.cycle, whole.last())
         });
@@ -288,6 +291,13 @@ impl Whole {
         &values[self.range.clone()]
     }
 
+    /// Pulses of an acceleration per cycle; none where the record cannot show them.
+    fn spikes_per_cycle(&self, values: &[f64], contact: f64, cycle: f64) -> Option<f64> {
+        let Spikes { found, margin } = spikes(&self.times, self.of(values), contact, cycle)?;
+        let found: Vec<f64> = found.iter().map(|it| it.time).collect();
+        Some(per_cycle(&found, cycle, self.last() - margin))
+    }
+
     /// Its last time [s].
     fn last(&self) -> f64 {
         self.times[self.times.len() - 1]
@@ -296,16 +306,28 @@ impl Whole {
 
 /// A record that repeats itself with the motion and varies, if there is one: a displacement without its progression at the last.
 fn repeating(times: &[f64], cycle: f64, differences: &[Difference]) -> Option<Vec<f64>> {
-    let varying =
-        |signal: Signal| differences.iter().find(|it| it.signal == signal && it.errors.is_some());
-    if let Some(own) = REPEATING.into_iter().find_map(varying) {
+    if let Some(own) = REPEATING.into_iter().find_map(|signal| varying(differences, signal)) {
         return Some(own.recorded.clone());
     }
-    let [x1, x2] = [Signal::X1, Signal::X2].map(varying);
+    let [x1, x2] = [Signal::X1, Signal::X2].map(|signal| varying(differences, signal));
     if let (Some(x1), Some(x2)) = (x1, x2) {
         return Some(x1.recorded.iter().zip(&x2.recorded).map(|(a, b)| a - b).collect());
     }
     let own = x1.or(x2)?;
     let speed = own_progression(times, &own.recorded, cycle);
     Some(times.iter().zip(&own.recorded).map(|(t, value)| value - speed * t).collect())
+}
+
+fn drop_doubts_of_sign(differences: &mut [Difference]) {
+    let inverted = differences.iter_mut().filter(|it| it.doubt == Some(Doubt::Sign));
+    inverted.for_each(|it| it.doubt = None);
+}
+
+/// A signal that was recorded and varies.
+fn varying(differences: &[Difference], signal: Signal) -> Option<&Difference> {
+    differences.iter().find(|it| it.signal == signal && it.errors.is_some())
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
 }

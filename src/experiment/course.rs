@@ -1,9 +1,9 @@
 //! A recorded history of the motion, and what is unknown of its start.
 
 use super::beginning::{Beginning, REACH, Reading, first_window};
-use super::free_vibration::noise;
 use super::least_squares::Bounds;
 use super::line::line;
+use super::noise::noise;
 use super::recording::median;
 use super::smoothing::smoothed;
 use crate::capsule::sampled::{Direction, Signal, Started};
@@ -68,56 +68,33 @@ impl<'r> Course<'r> {
     ///
     /// Fails where neither r, nor x1 and x2, is recorded, or a signal does not vary.
     pub fn new(recorded: &'r Recorded, weights: Weights) -> Result<Self, String> {
-        let least = |values: &[f64]| {
-            let size = values.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
-            (1e-9 * size).max(f64::MIN_POSITIVE)
-        };
         let noises = recorded.signals.iter().map(|(_, values)| {
-            let least = least(values);
+            let least = least_noise(values);
             [noise(values).max(least), least]
         });
-        let noises: Vec<[f64; 2]> = noises.collect();
-        let noise: Vec<f64> = noises.iter().map(|it| it[0]).collect();
+        let noise: Vec<[f64; 2]> = noises.collect();
         let units = match weights {
-            Weights::Noise => noise.clone(),
+            Weights::Noise => noise.iter().map(|it| it[0]).collect(),
             Weights::Spread => {
                 recorded.signals.iter().map(|it| spread(&recorded.times, &it.1)).collect()
             }
         };
         varies(&recorded.signals)?;
-        let begin = |signal: Signal| begin(recorded, &noise, signal);
-        let (r, x1, x2) = (begin(Signal::R), begin(Signal::X1), begin(Signal::X2));
-        let both = |a: Option<Beginning>, b: Option<Beginning>| Some(a?.less(b?));
-        let Some(r) = r.or(both(x1, x2)) else {
-            return Err("neither r, nor x1 and x2, is recorded: the start is unknown".to_owned());
+        let first = FirstSample::of(recorded, &noise)
+            .ok_or("neither r, nor x1 and x2, is recorded: the start is unknown")?;
+        let y2 = first.speed.unwrap_or(Reading { value: 0.0, error: fastest(recorded) / REACH });
+        let speeds = match first.speed {
+            Some(it) => speeds_about(it),
+            None => speeds_up_to(REACH * y2.error),
         };
-        // A capsule whose displacement is not recorded may be anywhere.
-        let x2 = x2.or(both(x1, Some(r)).filter(|_| x1.is_some()));
-        let y1 = begin(Signal::Y1).map(|it| it.level);
-        let measured = begin(Signal::Y2).map(|it| it.level).or(x2.map(|it| it.rate));
-        let measured = measured.or(y1.map(|it| it.less(r.rate)));
-        let y2 = measured.unwrap_or(Reading { value: 0.0, error: fastest(recorded) / REACH });
-        let y1 = y1.unwrap_or(r.rate.plus(y2));
-        let level = x2.map_or(0.0, |it| it.level.value);
-        let start = State { r: r.level.value, y1: y1.value, x2: level, y2: y2.value };
-        let mut unknown = vec![
-            (Direction::StartR, r.level.bounds()),
-            (Direction::StartY1, y1.bounds()),
-            (Direction::StartY2, y2.bounds()),
-        ];
-        unknown.extend(x2.map(|it| (Direction::StartX2, it.level.bounds())));
+        let (start, mut unknown) = first.start(y2);
         if recorded.phase_error > 0.0 {
             let phase = Reading { value: recorded.phase, error: recorded.phase_error };
             unknown.push((Direction::StartPhase, phase.bounds()));
         }
         let guess =
             Started { parameters: recorded.parameters.clone(), start, phase: recorded.phase };
-        let speeds = match measured {
-            Some(it) => speeds_about(it),
-            None => speeds_up_to(REACH * y2.error),
-        };
-        let is_speed_measured = measured.is_some();
-        let noise = noises;
+        let is_speed_measured = first.speed.is_some();
         Ok(Course { recorded, guess, unknown, units, noise, speeds, is_speed_measured })
     }
 
@@ -132,11 +109,61 @@ impl<'r> Course<'r> {
     }
 }
 
+/// What a record says of the motion at its first sample.
+struct FirstSample {
+    r: Beginning,
+    /// None where the capsule may be anywhere, as its displacement is not recorded.
+    x2: Option<Beginning>,
+    y1: Option<Reading>,
+    /// The velocity of the capsule: by y2, by x2, by x1 and r, or by y1 and r.
+    speed: Option<Reading>,
+}
+
+impl FirstSample {
+    /// None where neither r, nor x1 and x2, is recorded; `noise` is that of each signal.
+    fn of(recorded: &Recorded, noise: &[[f64; 2]]) -> Option<FirstSample> {
+        let [r, x1, x2, y1, y2] = [Signal::R, Signal::X1, Signal::X2, Signal::Y1, Signal::Y2]
+            .map(|signal| begin(recorded, noise, signal));
+        let r = r.or(difference(x1, x2))?;
+        let x2 = x2.or(difference(x1, Some(r)));
+        let y1 = y1.map(|it| it.level);
+        let speed = y2.map(|it| it.level).or(x2.map(|it| it.rate));
+        let speed = speed.or(y1.map(|it| it.less(r.rate)));
+        Some(FirstSample { r, x2, y1, speed })
+    }
+
+    /// The start with this velocity of the capsule, and what is unknown of it.
+    fn start(&self, y2: Reading) -> (State<f64>, Vec<(Direction, Bounds)>) {
+        let FirstSample { r, x2, y1, .. } = self;
+        let y1 = y1.unwrap_or(r.rate.plus(y2));
+        let level = x2.map_or(0.0, |it| it.level.value);
+        let start = State { r: r.level.value, y1: y1.value, x2: level, y2: y2.value };
+        let mut unknown = vec![
+            (Direction::StartR, r.level.bounds()),
+            (Direction::StartY1, y1.bounds()),
+            (Direction::StartY2, y2.bounds()),
+        ];
+        unknown.extend(x2.map(|it| (Direction::StartX2, it.level.bounds())));
+        (start, unknown)
+    }
+}
+
+/// The difference of two signals, where both are recorded.
+fn difference(a: Option<Beginning>, b: Option<Beginning>) -> Option<Beginning> {
+    Some(a?.less(b?))
+}
+
+/// The least that is taken for the noise of a signal.
+fn least_noise(values: &[f64]) -> f64 {
+    let size = values.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+    (1e-9 * size).max(f64::MIN_POSITIVE)
+}
+
 /// The speeds that are tried about a measured one.
 fn speeds_about(speed: Reading) -> Vec<f64> {
     let count = f64::from(TRIED);
-    let share = |i: u32| (2.0 * f64::from(i) + 1.0) / count - 1.0;
-    (0..TRIED).map(|i| speed.value + TRIED_REACH * speed.error * share(i)).collect()
+    let shares = (0..TRIED).map(|i| (2.0 * f64::from(i) + 1.0) / count - 1.0);
+    shares.map(|share| speed.value + TRIED_REACH * speed.error * share).collect()
 }
 
 /// Speeds of either sign up to the largest, each a share of the next, as the record says nothing of their size.
@@ -174,9 +201,9 @@ pub fn varies(signals: &[(Signal, Vec<f64>)]) -> Result<(), String> {
 }
 
 /// A signal's beginning; none where it is not recorded.
-fn begin(recorded: &Recorded, noise: &[f64], signal: Signal) -> Option<Beginning> {
+fn begin(recorded: &Recorded, noise: &[[f64; 2]], signal: Signal) -> Option<Beginning> {
     let place = recorded.signals.iter().position(|(its, _)| *its == signal)?;
-    Beginning::of(&recorded.times, &recorded.signals[place].1, noise[place])
+    Beginning::of(&recorded.times, &recorded.signals[place].1, noise[place][0])
 }
 
 /// The standard deviation of a record about its line.

@@ -2,7 +2,7 @@
 
 use super::course::{Course, Recorded};
 use super::free_parameter::Free;
-use super::least_squares::{Fit, Loss, Residuals};
+use super::least_squares::{Fit, Loss, Model, Residuals};
 use super::misfit::SignalResiduals;
 use crate::capsule::sampled::{Direction, Signal, Started, sampled};
 
@@ -28,6 +28,20 @@ pub(super) fn motions(courses: &[Course<'_>], free: &[Free], unknowns: &[f64]) -
         .collect()
 }
 
+/// Recordings with the parameters that are fitted to them, as a model of all unknowns: see [`motions`].
+pub(super) struct Recordings<'c> {
+    /// The recordings.
+    pub courses: &'c [Course<'c>],
+    /// The parameters.
+    pub free: &'c [Free],
+}
+
+impl Model for Recordings<'_> {
+    fn residuals(&self, unknowns: &[f64]) -> Option<Residuals> {
+        residuals(self.courses, self.free, unknowns)
+    }
+}
+
 /// All residuals at these unknowns, with their slopes.
 pub(super) fn residuals(
     courses: &[Course<'_>],
@@ -40,35 +54,36 @@ pub(super) fn residuals(
         if !motion.parameters.faults().is_empty() {
             return None;
         }
-        let of_parameters = free.iter().map(|it| Direction::Parameter(it.parameter));
-        let of_start = course.unknown.iter().map(|it| it.0);
-        let directions: Vec<Direction> = of_parameters.chain(of_start).collect();
         let Recorded { times, signals, .. } = course.recorded;
         let names: Vec<Signal> = signals.iter().map(|it| it.0).collect();
-        let found = sampled(&motion, times, &names, &directions, TOLERANCE).ok()?;
+        let found = sampled(&motion, times, &names, &directions(course, free), TOLERANCE).ok()?;
         for (i, (_, recorded)) in signals.iter().enumerate() {
             let unit = 1.0 / course.units[i];
             for (k, recorded) in recorded.iter().enumerate() {
-                all.values.push((found.values[i][k] - recorded) * unit);
                 let mut row = vec![0.0; unknowns.len()];
                 for (j, slope) in found.slopes[i][k].iter().enumerate() {
                     let place = if j < free.len() { j } else { before + j - free.len() };
                     row[place] = slope * unit;
                 }
-                all.slopes.push(row);
+                all.push((found.values[i][k] - recorded) * unit, row);
             }
         }
         // What the record of the drive says of its phase is one more datum.
         if let Some(place) = course.unknown.iter().position(|it| it.0 == Direction::StartPhase) {
             let unit = 1.0 / course.recorded.phase_error;
-            all.values.push((motion.phase - course.recorded.phase) * unit);
             let mut row = vec![0.0; unknowns.len()];
             row[before + place] = unit;
-            all.slopes.push(row);
+            all.push((motion.phase - course.recorded.phase) * unit, row);
         }
         before += course.unknown.len();
     }
     Some(all)
+}
+
+/// What the motion of a recording depends on: the parameters, then what is unknown of its start.
+fn directions(course: &Course<'_>, free: &[Free]) -> Vec<Direction> {
+    let of_parameters = free.iter().map(|it| Direction::Parameter(it.parameter));
+    of_parameters.chain(course.unknown.iter().map(|it| it.0)).collect()
 }
 
 /// What the residuals of one recording in this motion add to the sum that is made least; infinite where it cannot be followed.
@@ -76,20 +91,21 @@ pub(super) fn misfit_of(course: &Course<'_>, motion: &Started, loss: Loss) -> f6
     let Recorded { times, signals, .. } = course.recorded;
     let names: Vec<Signal> = signals.iter().map(|it| it.0).collect();
     let Ok(found) = sampled(motion, times, &names, &[], TOLERANCE) else { return f64::INFINITY };
-    let of_signal = |(i, (_, recorded)): (usize, &(Signal, Vec<f64>))| -> f64 {
+    let of_signals = signals.iter().enumerate().map(|(i, (_, recorded))| {
         let pairs = found.values[i].iter().zip(recorded);
-        pairs.map(|(found, recorded)| loss.of((found - recorded) / course.units[i])).sum()
-    };
-    signals.iter().enumerate().map(of_signal).sum()
+        pairs.map(|(found, recorded)| loss.of((found - recorded) / course.units[i])).sum::<f64>()
+    });
+    of_signals.sum()
 }
 
 /// How many residuals in turn are those of one signal, or of the phase of a drive.
 pub(super) fn groups(courses: &[Course<'_>]) -> Vec<usize> {
-    let of = |course: &Course<'_>| {
-        let signals = vec![course.recorded.times.len(); course.units.len()];
-        signals.into_iter().chain(course.fits_phase().then_some(1)).collect::<Vec<usize>>()
-    };
-    courses.iter().flat_map(of).collect()
+    let mut groups = Vec::new();
+    for course in courses {
+        groups.extend(vec![course.recorded.times.len(); course.units.len()]);
+        groups.extend(course.fits_phase().then_some(1));
+    }
+    groups
 }
 
 /// The residuals of each signal of each recording in its unit; empty where the motion cannot be followed.
@@ -110,10 +126,11 @@ pub(super) fn by_signal(courses: &[Course<'_>], free: &[Free], fit: &Fit) -> Vec
 /// The residuals of all signals with the noise of their records.
 pub(super) fn signals(courses: &[Course<'_>], free: &[Free], fit: &Fit) -> Vec<SignalResiduals> {
     let units = courses.iter().flat_map(|it| it.units.iter().zip(&it.noise));
-    let signal = |(own, (unit, noise)): (Vec<f64>, (&f64, &[f64; 2]))| SignalResiduals {
+    let signals = by_signal(courses, free, fit).into_iter().zip(units);
+    let residuals = signals.map(|(own, (unit, noise))| SignalResiduals {
         values: own.iter().map(|it| it * unit).collect(),
         record_noise: noise[0],
         least_noise: noise[1],
-    };
-    by_signal(courses, free, fit).into_iter().zip(units).map(signal).collect()
+    });
+    residuals.collect()
 }

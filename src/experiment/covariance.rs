@@ -95,8 +95,8 @@ impl Covariance {
                 covariance[(i, i)] = f64::INFINITY;
             }
         }
-        let sum = |of: fn(&Means) -> f64| means.iter().map(of).sum::<f64>();
-        let growth = sum(|it| it.square) / sum(|it| it.curvature);
+        let squares: f64 = means.iter().map(|it| it.square).sum();
+        let growth = squares / means.iter().map(|it| it.curvature).sum::<f64>();
         Covariance { inverse_curvature, covariance, is_combined, growth }
     }
 
@@ -150,9 +150,9 @@ fn inverse_curvature(slopes: &[Vec<f64>], left_out: &[bool]) -> (DMatrix<f64>, V
     let count = left_out.len();
     let mut covariance = DMatrix::zeros(count, count);
     let mut is_combined = vec![false; count];
-    let norm =
-        |column: usize| slopes.iter().map(|row| row[column] * row[column]).sum::<f64>().sqrt();
-    let norms: Vec<f64> = (0..count).map(norm).collect();
+    let squares =
+        (0..count).map(|column| slopes.iter().map(|row| row[column] * row[column]).sum::<f64>());
+    let norms: Vec<f64> = squares.map(f64::sqrt).collect();
     let (kept, others): (Vec<usize>, Vec<usize>) =
         (0..count).partition(|&i| !left_out[i] && norms[i] > 0.0);
     others.into_iter().for_each(|i| covariance[(i, i)] = f64::INFINITY);

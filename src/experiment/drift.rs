@@ -5,7 +5,7 @@ use super::course_residuals::{groups, residuals};
 use super::covariance::{Covariance, Data};
 use super::effort::{Effort, search};
 use super::free_parameter::Free;
-use super::least_squares::Fit;
+use super::least_squares::{Fit, Residuals};
 use crate::capsule::sampled::Signal;
 
 /// A drift of so many standard errors is no chance: of 15 000 signals one is so far off.
@@ -57,6 +57,34 @@ pub(super) fn drifts(
 ) -> Vec<Drift> {
     let Some(mut found) = residuals(courses, free, &fit.parameters) else { return Vec::new() };
     let fitted = fit.parameters.len();
+    let mut drifts = with_drifts(&mut found, courses, fitted);
+    let bounds = search(courses, free, effort).bounds;
+    let on_bound = fit.parameters.iter().zip(bounds).map(|(value, bounds)| bounds.holds(*value));
+    let left_out: Vec<bool> = on_bound.chain(vec![false; drifts.len()]).collect();
+    let groups = groups(courses);
+    let data = Data { values: &found.values, slopes: &found.slopes, groups: &groups };
+    let covariance = Covariance::new(data, effort.loss, &left_out);
+    let scores = (0..left_out.len()).map(|column| {
+        let pairs = found.values.iter().zip(&found.slopes);
+        pairs.map(|(value, row)| effort.loss.influence(*value) * row[column]).sum::<f64>()
+    });
+    let scores: Vec<f64> = scores.collect();
+    let kept: Vec<usize> =
+        (0..left_out.len()).filter(|&i| covariance.covariance[(i, i)].is_finite()).collect();
+    for (i, drift) in drifts.iter_mut().enumerate() {
+        let own = fitted + i;
+        let curvature = &covariance.inverse_curvature;
+        // The step is that of a drift added to the motion, which takes the residuals, fitted less recorded, to their least.
+        drift.rate = -kept.iter().map(|&j| curvature[(own, j)] * scores[j]).sum::<f64>();
+        drift.standard_error = covariance.covariance[(own, own)].sqrt();
+    }
+    drifts.retain(|it| it.standard_error.is_finite());
+    drifts
+}
+
+/// Adds the slopes of residuals in a drift of each signal behind those in what is `fitted`; returns the drifts, none of which is
+/// known yet.
+fn with_drifts(found: &mut Residuals, courses: &[Course<'_>], fitted: usize) -> Vec<Drift> {
     let signals: usize = courses.iter().map(|it| it.units.len()).sum();
     found.slopes.iter_mut().for_each(|row| row.resize(fitted + signals, 0.0));
     let (mut row, mut column) = (0, fitted);
@@ -72,26 +100,5 @@ pub(super) fn drifts(
         }
         row += usize::from(course.fits_phase());
     }
-    let bounds = search(courses, free, effort).bounds;
-    let on_bound = fit.parameters.iter().zip(bounds).map(|(value, bounds)| bounds.holds(*value));
-    let left_out: Vec<bool> = on_bound.chain(vec![false; signals]).collect();
-    let groups = groups(courses);
-    let data = Data { values: &found.values, slopes: &found.slopes, groups: &groups };
-    let covariance = Covariance::new(data, effort.loss, &left_out);
-    let score = |column: usize| -> f64 {
-        let pairs = found.values.iter().zip(&found.slopes);
-        pairs.map(|(value, row)| effort.loss.influence(*value) * row[column]).sum()
-    };
-    let scores: Vec<f64> = (0..left_out.len()).map(score).collect();
-    let kept: Vec<usize> =
-        (0..left_out.len()).filter(|&i| covariance.covariance[(i, i)].is_finite()).collect();
-    for (i, drift) in drifts.iter_mut().enumerate() {
-        let own = fitted + i;
-        let curvature = &covariance.inverse_curvature;
-        // The step is that of a drift added to the motion, which takes the residuals, fitted less recorded, to their least.
-        drift.rate = -kept.iter().map(|&j| curvature[(own, j)] * scores[j]).sum::<f64>();
-        drift.standard_error = covariance.covariance[(own, own)].sqrt();
-    }
-    drifts.retain(|it| it.standard_error.is_finite());
     drifts
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::estimate::Estimate;
-use super::least_squares::{Residuals, Search, fit};
+use super::least_squares::{Fit, Model, Residuals, Search, fit};
 use super::periodogram::strongest;
 
 /// A frequency is that of a study within so many standard errors.
@@ -67,16 +67,7 @@ pub fn harmonic(times: &[f64], values: &[f64]) -> Result<Harmonic, String> {
     let span = times[count - 1] - times[0];
     let mean = values.iter().sum::<f64>() / count as f64;
     let omega = strongest(times, values).ok_or("the record does not vary, so no drive is found")?;
-    let model = |p: &[f64]| {
-        let rows = times.iter().zip(values).map(|(time, value)| {
-            let (sin, cos) = (p[0] * (time - times[0])).sin_cos();
-            let by_omega = (time - times[0]) * (p[2] * cos - p[1] * sin);
-            (p[3] + p[1] * cos + p[2] * sin - value, vec![by_omega, cos, sin, 1.0])
-        });
-        let (values, slopes) = rows.unzip();
-        Some(Residuals { values, slopes })
-    };
-    let fit = fit(&model, &[omega, 0.0, 0.0, mean], &Search::free(4))
+    let fit = fit(&Driven { times, values }, &[omega, 0.0, 0.0, mean], &Search::free(4))
         .ok_or("the drive cannot be fitted")?;
     let [omega, a, b, mean] = [0, 1, 2, 3].map(|i| fit.parameters[i]);
     if omega * span < 1.5 * TAU {
@@ -87,25 +78,42 @@ pub fn harmonic(times: &[f64], values: &[f64]) -> Result<Harmonic, String> {
     let by = [-times[0], b / square, -a / square];
     let amplitude = square.sqrt();
     let freedom = fit.degrees_of_freedom;
-    let error = |by: &[f64; 3]| {
-        let row = |i: usize| {
-            (0..3).map(|j| by[i] * fit.covariance.covariance[(i, j)] * by[j]).sum::<f64>()
-        };
-        (0..3).map(row).sum::<f64>().max(0.0).sqrt()
-    };
+    let by_amplitude = [0.0, a / amplitude, b / amplitude];
     let phase = (-b).atan2(a) - omega * times[0];
     let phase = phase - TAU * (phase / TAU).round();
     Ok(Harmonic {
-        omega: Estimate::of_student(omega, fit.standard_error(0), freedom),
-        phase: Estimate::of_student(phase, error(&by), freedom),
-        amplitude: Estimate::of_student(
-            amplitude,
-            error(&[0.0, a / amplitude, b / amplitude]),
-            freedom,
-        ),
+        omega: fit.estimate(0),
+        phase: Estimate::of_student(phase, error(&fit, by), freedom),
+        amplitude: Estimate::of_student(amplitude, error(&fit, by_amplitude), freedom),
         mean,
         scatter: fit.residual_deviation(),
     })
+}
+
+/// The standard error of a function of the first three parameters of a fit, by its slopes in them.
+fn error(fit: &Fit, by: [f64; 3]) -> f64 {
+    let covariance = &fit.covariance.covariance;
+    let rows = (0..3).map(|i| (0..3).map(|j| by[i] * covariance[(i, j)] * by[j]).sum::<f64>());
+    rows.sum::<f64>().max(0.0).sqrt()
+}
+
+/// A record as a harmonic, by its frequency, the amplitudes of cos and sin, and the mean.
+struct Driven<'r> {
+    times: &'r [f64],
+    values: &'r [f64],
+}
+
+impl Model for Driven<'_> {
+    fn residuals(&self, parameters: &[f64]) -> Option<Residuals> {
+        let [omega, a, b, mean] = [0, 1, 2, 3].map(|i| parameters[i]);
+        let rows = self.times.iter().zip(self.values).map(|(time, value)| {
+            let (sin, cos) = (omega * (time - self.times[0])).sin_cos();
+            let by_omega = (time - self.times[0]) * (b * cos - a * sin);
+            (mean + a * cos + b * sin - value, vec![by_omega, cos, sin, 1.0])
+        });
+        let (values, slopes) = rows.unzip();
+        Some(Residuals { values, slopes })
+    }
 }
 
 #[cfg(test)]

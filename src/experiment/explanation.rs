@@ -1,6 +1,7 @@
 //! What other parameters would have to be for the simulation to describe a recording.
 
-use super::agreement::Difference;
+use std::slice::from_ref;
+
 use super::comparison::Comparison;
 use super::course::Recorded;
 use super::motion_fit::{Effort, Free, Side, best_values};
@@ -45,35 +46,46 @@ pub fn explain(
             comparison.outcome.0.name()
         ));
     }
-    let parameters = &comparison.motion.parameters;
+    let recorded = first_cycles(comparison);
+    let (_, without) = best_values(from_ref(&recorded), &[], &Effort { starts: 1, ..*effort })?;
+    choices.iter().map(|free| explanation(&recorded, free, effort, without)).collect()
+}
+
+/// The first cycles of a recording, as far as explanations are fitted to them.
+fn first_cycles(comparison: &Comparison) -> Recorded {
+    let parameters = comparison.motion.parameters.clone();
     let span = EXPLAINED_CYCLES * parameters.drive_period();
     let count = comparison.times.iter().take_while(|time| **time <= span).count();
-    let cut = |it: &Difference| (it.signal, it.recorded[..count].to_vec());
-    let recorded = Recorded {
-        parameters: parameters.clone(),
+    let varying = comparison.differences.iter().filter(|it| it.errors.is_some());
+    Recorded {
+        parameters,
         times: comparison.times[..count].to_vec(),
         phase: comparison.phase,
         phase_error: comparison.drive.as_ref().map_or(0.0, |it| it.harmonic.phase.standard_error),
-        signals: comparison.differences.iter().filter(|it| it.errors.is_some()).map(cut).collect(),
-    };
-    let recorded = [recorded];
-    let (_, without) = best_values(&recorded, &[], &Effort { starts: 1, ..*effort })?;
-    let explanation = |free: &Vec<Free>| {
-        let (values, with) = best_values(&recorded, free, effort)?;
-        let one = |(it, value): (&Free, f64)| (it.parameter, value, Side::of(value, it.bounds));
-        let changed: Vec<_> = free.iter().zip(values).map(one).collect();
-        let mut parameters = parameters.clone();
-        for (parameter, value, _) in &changed {
-            parameters[*parameter] = *value;
-        }
-        let case = Case::at_section(parameters, State::default(), comparison.phase);
-        let orbit = settle_case(&case, &Protocol::default());
-        Ok(Explanation {
-            changed,
-            misfit: [without, with],
-            impacts: orbit.outputs[capsule::Output::ImpactsPerCycle],
-            speed: orbit.outputs[capsule::Output::ProgressionSpeed],
-        })
-    };
-    choices.iter().map(explanation).collect()
+        signals: varying.map(|it| (it.signal, it.recorded[..count].to_vec())).collect(),
+    }
+}
+
+/// What some parameters would have to be, where the misfit `without` a change is known.
+fn explanation(
+    recorded: &Recorded,
+    free: &[Free],
+    effort: &Effort,
+    without: f64,
+) -> Result<Explanation, String> {
+    let (values, with) = best_values(from_ref(recorded), free, effort)?;
+    let mut parameters = recorded.parameters.clone();
+    let mut changed = Vec::new();
+    for (it, value) in free.iter().zip(values) {
+        changed.push((it.parameter, value, Side::of(value, it.bounds)));
+        parameters[it.parameter] = value;
+    }
+    let case = Case::at_section(parameters, State::default(), recorded.phase);
+    let orbit = settle_case(&case, &Protocol::default());
+    Ok(Explanation {
+        changed,
+        misfit: [without, with],
+        impacts: orbit.outputs[capsule::Output::ImpactsPerCycle],
+        speed: orbit.outputs[capsule::Output::ProgressionSpeed],
+    })
 }

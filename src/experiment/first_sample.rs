@@ -1,7 +1,7 @@
 //! What the capsule may do at the first sample of a recording: rest, or slide at one of several speeds.
 
 use super::course::Course;
-use super::course_residuals::{misfit_of, motions, residuals};
+use super::course_residuals::{Recordings, misfit_of, motions};
 use super::effort::{Effort, search};
 use super::free_parameter::Free;
 use super::in_threads::in_threads;
@@ -32,9 +32,11 @@ pub(super) fn with_speed(motion: &Started, speed: f64) -> Started {
 
 /// How well the speeds that are tried describe a recording, all else as in a motion.
 pub(super) fn misfits_at_speeds(course: &Course<'_>, motion: &Started, loss: Loss) -> Vec<Speed> {
-    let of =
-        |&speed: &f64| Speed { speed, misfit: misfit_of(course, &with_speed(motion, speed), loss) };
-    course.speeds.iter().map(of).collect()
+    let speeds = course.speeds.iter().map(|&speed| {
+        let misfit = misfit_of(course, &with_speed(motion, speed), loss);
+        Speed { speed, misfit }
+    });
+    speeds.collect()
 }
 
 /// The best of a fit and of those that begin at other speeds of the capsule, one recording after the other.
@@ -59,7 +61,7 @@ pub(super) fn other_speeds(
     mut best: Fit,
 ) -> Fit {
     let search = search(courses, free, effort);
-    let model = |unknowns: &[f64]| residuals(courses, free, unknowns);
+    let model = Recordings { courses, free };
     for index in 0..courses.len() {
         let motion = &motions(courses, free, &best.parameters)[index];
         let tried = misfits_at_speeds(&courses[index], motion, effort.loss);
@@ -79,10 +81,13 @@ pub(super) fn other_speeds(
 
 /// The lowest of the speeds that describe a record better than both neighbours.
 fn minima(tried: &[Speed]) -> Vec<Speed> {
-    let at = |i: usize| tried.get(i).map_or(f64::INFINITY, |it| it.misfit);
-    let is_least = |i: usize| at(i) < at(i + 1) && (i == 0 || at(i) <= at(i - 1));
-    let mut found: Vec<Speed> =
-        (0..tried.len()).filter(|&i| is_least(i)).map(|i| tried[i]).collect();
+    let mut found = Vec::new();
+    for (i, this) in tried.iter().enumerate() {
+        let after = tried.get(i + 1).map_or(f64::INFINITY, |it| it.misfit);
+        if this.misfit < after && (i == 0 || this.misfit <= tried[i - 1].misfit) {
+            found.push(*this);
+        }
+    }
     found.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
     found.truncate(FITTED_FROM);
     found
@@ -122,7 +127,7 @@ pub(super) fn at_rest(
         let moving = courses[index].unknown.remove(place);
         let speed = std::mem::replace(&mut courses[index].guess.start.y2, 0.0);
         let search = search(courses, free, effort);
-        let model = |unknowns: &[f64]| residuals(courses, free, unknowns);
+        let model = Recordings { courses, free };
         let rests = fit_once(&model, &start, &search, 1.0);
         let allowed = best.sum_of_squares + MOVES * best.covariance.growth;
         match rests.filter(|it| it.sum_of_squares <= allowed) {

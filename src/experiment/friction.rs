@@ -1,5 +1,6 @@
 //! Friction coefficients from pull tests and coasting tests.
 
+pub use super::coast_down::coast_down;
 use super::estimate::{Estimate, reach, student};
 use super::line::{Outlier, chance_of_parabola, line, outliers};
 use super::profile::{Verdict, least, merged};
@@ -20,6 +21,14 @@ pub struct CoastingTests<'a> {
     pub distances: &'a [f64],
     /// Acceleration of gravity [m/s^2].
     pub g: f64,
+}
+
+impl CoastingTests<'_> {
+    /// `v^2/(2 g d)` of each, Eq. (2) of the paper.
+    fn coefficients(&self) -> Vec<f64> {
+        let pairs = self.speeds.iter().zip(self.distances);
+        pairs.map(|(v, d)| v * v / (2.0 * self.g * d)).collect()
+    }
 }
 
 /// The dynamic friction coefficient and the Stribeck velocity by one method.
@@ -77,24 +86,9 @@ pub fn coasting(tests: &CoastingTests<'_>) -> Result<Coasting, String> {
             "{count} coasting tests; at least 4 are needed for two parameters and their uncertainty"
         ));
     }
-    let pairs = || tests.speeds.iter().zip(tests.distances);
-    let coefficients: Vec<f64> = pairs().map(|(v, d)| v * v / (2.0 * tests.g * d)).collect();
-    let at_speed = |v_s: f64| {
-        let alone = |(v, mu): (&f64, &f64)| {
-            let decay = (-v / v_s).exp();
-            [(mu / (1.0 + decay)).ln(), -decay * v / (v_s * v_s) / (1.0 + decay)]
-        };
-        tests.speeds.iter().zip(&coefficients).map(alone).collect()
-    };
-    let slid = |v_s: f64| {
-        let alone = |(&v, d): (&f64, &f64)| {
-            let (distance, slopes) = coast_down(v, 1.0, v_s, tests.g);
-            [(distance / d).ln(), slopes[1] / distance]
-        };
-        pairs().map(alone).collect()
-    };
-    let by_initial_speed = ScaleFit { logarithms: &at_speed, count }.law();
-    let by_coast_down = ScaleFit { logarithms: &slid, count }.law();
+    let by_initial_speed = ScaleFit { tests, method: Method::InitialSpeed }.law();
+    let by_coast_down = ScaleFit { tests, method: Method::CoastDown }.law();
+    let coefficients = tests.coefficients();
     let misfits = misfits(tests.speeds, &coefficients, &by_coast_down.residuals);
     Ok(Coasting { by_initial_speed, by_coast_down, coefficients, misfits })
 }
@@ -157,10 +151,17 @@ fn misfits(speeds: &[f64], coefficients: &[f64], residuals: &[f64]) -> Vec<Strin
 ///
 /// Minima that are closer than the grid's 6 % are taken for one.
 struct ScaleFit<'a> {
-    /// The logarithm of the scale that each test alone gives at a shape, with its slope in the shape.
-    logarithms: &'a dyn Fn(f64) -> Vec<[f64; 2]>,
-    /// Tests.
-    count: usize,
+    tests: &'a CoastingTests<'a>,
+    method: Method,
+}
+
+/// What a coasting test is taken to measure.
+#[derive(Clone, Copy)]
+enum Method {
+    /// The friction at its initial speed.
+    InitialSpeed,
+    /// The distance of a capsule that slows down.
+    CoastDown,
 }
 
 /// Grid points of the shape per decade.
@@ -171,10 +172,38 @@ const IN_RANGE: usize = 200;
 const ROUNDING: f64 = 1e-13;
 
 impl ScaleFit<'_> {
+    /// Tests.
+    fn count(&self) -> usize {
+        self.tests.speeds.len()
+    }
+
+    /// The logarithm of mu_d that each test alone gives at a v_s, with its slope in v_s.
+    fn logarithms(&self, v_s: f64) -> Vec<[f64; 2]> {
+        let CoastingTests { speeds, distances, g } = *self.tests;
+        match self.method {
+            Method::InitialSpeed => {
+                let coefficients = self.tests.coefficients();
+                let pairs = speeds.iter().zip(&coefficients);
+                let alone = pairs.map(|(v, mu)| {
+                    let decay = (-v / v_s).exp();
+                    [(mu / (1.0 + decay)).ln(), -decay * v / (v_s * v_s) / (1.0 + decay)]
+                });
+                alone.collect()
+            }
+            Method::CoastDown => {
+                let alone = speeds.iter().zip(distances).map(|(&v, d)| {
+                    let (distance, slopes) = coast_down(v, 1.0, v_s, g);
+                    [(distance / d).ln(), slopes[1] / distance]
+                });
+                alone.collect()
+            }
+        }
+    }
+
     /// The mean logarithm of the scale and the sum of squares at the logarithm of a shape.
     fn at(&self, u: f64) -> (f64, f64) {
-        let all = (self.logarithms)(u.exp());
-        let mean = all.iter().map(|it| it[0]).sum::<f64>() / self.count as f64;
+        let all = self.logarithms(u.exp());
+        let mean = all.iter().map(|it| it[0]).sum::<f64>() / self.count() as f64;
         (mean, all.iter().map(|it| (it[0] - mean).powi(2)).sum())
     }
 
@@ -182,8 +211,8 @@ impl ScaleFit<'_> {
         let nodes = self.nodes();
         let best = nodes.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
         let (u, least) = best.expect("the grid is not empty");
-        let freedom = self.count - 2;
-        let floor = self.count as f64 * ROUNDING * ROUNDING;
+        let freedom = self.count() - 2;
+        let floor = self.count() as f64 * ROUNDING * ROUNDING;
         let t = student(freedom);
         let limit = least + (t * t * least / freedom as f64).max(floor);
         let shapes = self.shapes(&nodes, limit);
@@ -193,11 +222,6 @@ impl ScaleFit<'_> {
             shapes.iter().map(|it| it.map(|u| u.exp().clamp(V_S[0], V_S[1]))).collect();
         let verdicts = verdicts(&shapes, &scales, bounds);
         let errors = self.errors(u, (least / freedom as f64).sqrt());
-        let estimate = |value, ranges: &[[f64; 2]], verdict, error| Estimate {
-            value,
-            standard_error: if verdict == Verdict::Determined { error } else { f64::INFINITY },
-            interval: [ranges[0][0], ranges[ranges.len() - 1][1]],
-        };
         let mu_d = self.at(u).0.exp();
         // Where v_s has a limit on one side only, its error is infinite, and that of mu_d is told by its interval.
         let mu_d_error = match verdicts[1] {
@@ -206,24 +230,25 @@ impl ScaleFit<'_> {
         };
         let mean = self.at(u).0;
         Stribeck {
-            mu_d: estimate(mu_d, &scales, verdicts[0], mu_d_error),
-            v_s: estimate(u.exp(), &v_s_ranges, verdicts[1], errors[1]),
+            mu_d: estimate(mu_d, mu_d_error, &scales, verdicts[0]),
+            v_s: estimate(u.exp(), errors[1], &v_s_ranges, verdicts[1]),
             verdicts,
             ranges: [scales, v_s_ranges],
-            residuals: (self.logarithms)(u.exp()).iter().map(|it| it[0] - mean).collect(),
+            residuals: self.logarithms(u.exp()).iter().map(|it| it[0] - mean).collect(),
             scatter: (least / freedom as f64).sqrt(),
         }
     }
 
     /// The grid with the refined minima: logarithms of shapes, rising, with their sums of squares.
     fn nodes(&self) -> Vec<(f64, f64)> {
-        let [first, last] = V_S.map(f64::ln);
-        let count = (PER_DECADE as f64 * (last - first) / std::f64::consts::LN_10).round() as usize;
-        let node = |i: usize| first + (last - first) * i as f64 / count as f64;
-        let grid: Vec<(f64, f64)> = (0..=count).map(node).map(|u| (u, self.at(u).1)).collect();
+        let ends = V_S.map(f64::ln);
+        let count = PER_DECADE as f64 * (ends[1] - ends[0]) / std::f64::consts::LN_10;
+        let count = count.round() as usize;
+        let shapes = (0..=count).map(|i| node(ends, i, count));
+        let grid: Vec<(f64, f64)> = shapes.map(|u| (u, self.at(u).1)).collect();
         let minima = grid.windows(3).filter(|it| it[1].1 <= it[0].1 && it[1].1 <= it[2].1);
-        let sum = |u: f64| self.at(u).1;
-        let refined: Vec<(f64, f64)> = minima.map(|it| least(&sum, [it[0].0, it[2].0])).collect();
+        let refined = minima.map(|it| least(&|u| self.at(u).1, [it[0].0, it[2].0]));
+        let refined: Vec<(f64, f64)> = refined.collect();
         let mut nodes = [grid, refined].concat();
         nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
         nodes
@@ -231,16 +256,16 @@ impl ScaleFit<'_> {
 
     /// The ranges of the logarithm of the shape within the limit.
     fn shapes(&self, nodes: &[(f64, f64)], limit: f64) -> Vec<[f64; 2]> {
-        let is_within = |sum: f64| sum <= limit;
+        let is_within: Vec<bool> = nodes.iter().map(|(_, sum)| *sum <= limit).collect();
         let mut ranges: Vec<[f64; 2]> = Vec::new();
-        for (i, &(u, sum)) in nodes.iter().enumerate() {
-            if !is_within(sum) {
+        for (i, &(u, _)) in nodes.iter().enumerate() {
+            if !is_within[i] {
                 continue;
             }
-            let joins = i > 0 && is_within(nodes[i - 1].1);
+            let joins = i > 0 && is_within[i - 1];
             let below = if i == 0 || joins { u } else { self.crossing(u, nodes[i - 1].0, limit) };
             let above = match nodes.get(i + 1) {
-                Some(next) if !is_within(next.1) => self.crossing(u, next.0, limit),
+                Some(next) if !is_within[i + 1] => self.crossing(u, next.0, limit),
                 _ => u,
             };
             match ranges.last_mut() {
@@ -261,29 +286,47 @@ impl ScaleFit<'_> {
     }
 
     /// The range of the scale over a range of shapes.
-    fn scales(&self, [first, last]: [f64; 2], limit: f64) -> [f64; 2] {
-        let end = |sign: f64| {
-            let depth = |u: f64| {
-                let (mean, sum) = self.at(u);
-                -sign * mean - ((limit - sum).max(0.0) / self.count as f64).sqrt()
-            };
-            let node = |i: usize| first + (last - first) * i as f64 / IN_RANGE as f64;
-            let nodes = (0..=IN_RANGE).map(|i| (i, depth(node(i))));
-            let (i, lowest) = nodes.min_by(|a, b| a.1.total_cmp(&b.1)).expect("nodes");
-            let around = [node(i.saturating_sub(1)), node((i + 1).min(IN_RANGE))];
-            (-sign * least(&depth, around).1.min(lowest)).exp()
-        };
-        [end(-1.0), end(1.0)]
+    fn scales(&self, shapes: [f64; 2], limit: f64) -> [f64; 2] {
+        [-1.0, 1.0].map(|sign| self.end_of_scale(shapes, limit, sign))
+    }
+
+    /// The least (for sign -1) or greatest scale over a range of shapes.
+    fn end_of_scale(&self, shapes: [f64; 2], limit: f64, sign: f64) -> f64 {
+        let nodes = (0..=IN_RANGE).map(|i| (i, self.depth(node(shapes, i, IN_RANGE), limit, sign)));
+        let (i, lowest) = nodes.min_by(|a, b| a.1.total_cmp(&b.1)).expect("nodes");
+        let around = [i.saturating_sub(1), (i + 1).min(IN_RANGE)];
+        let around = around.map(|i| node(shapes, i, IN_RANGE));
+        (-sign * least(&|u| self.depth(u, limit, sign), around).1.min(lowest)).exp()
+    }
+
+    /// What is least where the logarithm of the scale within the limit is greatest, or, for sign -1, least.
+    fn depth(&self, u: f64, limit: f64, sign: f64) -> f64 {
+        let (mean, sum) = self.at(u);
+        -sign * mean - ((limit - sum).max(0.0) / self.count() as f64).sqrt()
     }
 
     /// The standard errors of the logarithm of the scale and of the shape, for this scatter, from the slopes.
     fn errors(&self, u: f64, scatter: f64) -> [f64; 2] {
-        let all = (self.logarithms)(u.exp());
-        let count = self.count as f64;
+        let all = self.logarithms(u.exp());
+        let count = self.count() as f64;
         let mean = all.iter().map(|it| it[1]).sum::<f64>() / count;
         let square: f64 = all.iter().map(|it| (it[1] - mean).powi(2)).sum();
         [scatter * (1.0 / count + mean * mean / square).sqrt(), scatter / square.sqrt()]
     }
+}
+
+/// A value whose standard error is known where the tests determine it, with the hull of the ranges that agree with them.
+fn estimate(value: f64, error: f64, ranges: &[[f64; 2]], verdict: Verdict) -> Estimate {
+    Estimate {
+        value,
+        standard_error: if verdict == Verdict::Determined { error } else { f64::INFINITY },
+        interval: [ranges[0][0], ranges[ranges.len() - 1][1]],
+    }
+}
+
+/// Node `i` of `count` even steps from the first to the last.
+fn node([first, last]: [f64; 2], i: usize, count: usize) -> f64 {
+    first + (last - first) * i as f64 / count as f64
 }
 
 /// What the ranges of the shape and of the scale say of the scale and the shape.
@@ -302,85 +345,9 @@ fn verdicts(shapes: &[[f64; 2]], scales: &[[f64; 2]], bounds: [f64; 2]) -> [Verd
     [scale, shape]
 }
 
-/// The distance that a capsule slides from the speed `v` until it rests under the Coulomb-Stribeck law [m], and its slopes in
-/// mu_d and v_s.
-pub fn coast_down(v: f64, mu_d: f64, v_s: f64, g: f64) -> (f64, [f64; 2]) {
-    let z = v / v_s;
-    let distance = v_s * v_s / (mu_d * g) * slid(z);
-    let by_speed = v / (mu_d * g * (1.0 + (-z).exp()));
-    (distance, [-distance / mu_d, (2.0 * distance - v * by_speed) / v_s])
-}
-
-/// The integral of `u/(1 + exp(-u))` from 0 to z.
-///
-/// Method: `u/(1 + e^-u) = u - u/(1 + e^u)`. The second part is integrated by Gauss's rule of five points on panels of a
-/// quarter up to 1; beyond, it is `pi^2/12` less the integral from z on, the sum over k from 1 of
-/// `(-1)^(k+1) e^(-kz) (z/k + 1/k^2)`. Error: below 1e-13 relative.
-fn slid(z: f64) -> f64 {
-    if z < 0.05 {
-        // The series about zero, as the difference would lose digits.
-        return z * z / 4.0 + z.powi(3) / 12.0 - z.powi(5) / 240.0 + z.powi(7) / 3360.0;
-    }
-    if z < 1.0 {
-        return 0.5 * z * z - quadrature(z);
-    }
-    let (mut beyond, decay) = (0.0, -(-z).exp());
-    let mut power = -1.0;
-    for k in 1..=(38.0 / z).ceil() as u32 {
-        let k = f64::from(k);
-        power *= decay;
-        beyond += power * (z / k + 1.0 / (k * k));
-    }
-    0.5 * z * z - (std::f64::consts::PI.powi(2) / 12.0 - beyond)
-}
-
-/// The integral of `u/(1 + exp(u))` from 0 to z by Gauss's rule.
-fn quadrature(z: f64) -> f64 {
-    const RULE: [(f64, f64); 3] = [
-        (0.0, 0.568_888_888_888_888_9),
-        (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    ];
-    let panels = (4.0 * z).ceil();
-    let half = 0.5 * z / panels;
-    let integrand = |u: f64| u / (1.0 + u.exp());
-    let mut sum = 0.0;
-    for panel in 0..panels as u32 {
-        let centre = (2.0 * f64::from(panel) + 1.0) * half;
-        for (node, weight) in RULE {
-            let both = integrand(centre + node * half) + integrand(centre - node * half);
-            sum += weight * half * if node == 0.0 { 0.5 * both } else { both };
-        }
-    }
-    sum
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn distances_are_those_of_small_steps() {
-        for (v, v_s) in [(0.01, 0.3), (0.4, 0.3), (2.0, 0.05), (5.0, 0.1)] {
-            let steps = 200_000;
-            let h = v / f64::from(steps);
-            let rate = |u: f64| u / (0.33 * 9.81 * (1.0 + (-u / v_s).exp()));
-            // Simpson's rule.
-            let sum: f64 = (0..steps)
-                .map(|i| {
-                    let u = f64::from(i) * h;
-                    (rate(u) + 4.0 * rate(u + 0.5 * h) + rate(u + h)) * h / 6.0
-                })
-                .sum();
-            let (found, slopes) = coast_down(v, 0.33, v_s, 9.81);
-            assert!((found / sum - 1.0).abs() < 1e-12, "{v} {v_s}: {found} {sum}");
-            let step = 1e-5 * v_s;
-            let by = (coast_down(v, 0.33, v_s + step, 9.81).0
-                - coast_down(v, 0.33, v_s - step, 9.81).0)
-                / (2.0 * step);
-            assert!((by - slopes[1]).abs() < 1e-7 * slopes[1].abs(), "{by} {}", slopes[1]);
-        }
-    }
 
     #[test]
     fn exact_tests_give_the_law_and_the_method_of_the_paper_is_biased() {

@@ -15,8 +15,6 @@ pub(super) fn in_threads<T: Sync, R: Send>(
             .chunks(each)
             .map(|part| scope.spawn(move || part.iter().map(function).collect::<Vec<R>>()))
             .collect();
-        let join =
-            |part: thread::ScopedJoinHandle<'_, Vec<R>>| part.join().expect("no thread panics");
-        parts.into_iter().flat_map(join).collect()
+        parts.into_iter().flat_map(|part| part.join().expect("no thread panics")).collect()
     })
 }

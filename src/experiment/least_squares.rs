@@ -4,6 +4,7 @@ use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationRe
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
 use super::covariance::{Covariance, Data};
+use super::estimate::Estimate;
 pub use super::loss::Loss;
 
 /// Residuals at some parameters, with their derivatives.
@@ -13,6 +14,14 @@ pub struct Residuals {
     pub values: Vec<f64>,
     /// Their derivatives in each parameter, by datum.
     pub slopes: Vec<Vec<f64>>,
+}
+
+impl Residuals {
+    /// Adds a datum.
+    pub fn push(&mut self, value: f64, slopes: Vec<f64>) {
+        self.values.push(value);
+        self.slopes.push(slopes);
+    }
 }
 
 /// A model to be fitted: from parameters to residuals; none where it has no value.
@@ -77,6 +86,12 @@ impl Fit {
     /// Whether only combinations of a parameter with others are determined.
     pub fn is_open(&self, parameter: usize) -> bool {
         self.covariance.is_combined[parameter]
+    }
+
+    /// A parameter with its standard error and interval.
+    pub fn estimate(&self, parameter: usize) -> Estimate {
+        let error = self.standard_error(parameter);
+        Estimate::of_student(self.parameters[parameter], error, self.degrees_of_freedom)
     }
 
     /// The standard deviation of the residuals, estimated from them.
@@ -223,8 +238,8 @@ impl<M: Model> Problem<'_, M> {
     fn evaluate(&mut self) {
         let values: Vec<f64> = self.outer().into_iter().map(|(value, _)| value).collect();
         let residuals = self.model.residuals(&values);
-        let finite = |it: &Residuals| it.values.iter().all(|value| value.is_finite());
-        self.held = residuals.filter(finite).map(|it| weighed(it, self.search.loss));
+        let finite = residuals.filter(|it| it.values.iter().all(|value| value.is_finite()));
+        self.held = finite.map(|it| weighed(it, self.search.loss));
     }
 
     fn fit(&self, termination: Termination) -> Fit {
@@ -269,17 +284,19 @@ impl<M: Model> LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_, M> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        // Where the model has no value, residuals that are far too large turn the search back.
-        let refused = || DVector::from_element(self.count, REFUSED);
-        let values = self.held.as_ref().map(|held| DVector::from_column_slice(&held.values));
-        Some(values.unwrap_or_else(refused))
+        Some(match &self.held {
+            Some(held) => DVector::from_column_slice(&held.values),
+            // Residuals that are far too large turn the search back.
+            None => DVector::from_element(self.count, REFUSED),
+        })
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let held = self.held.as_ref()?;
         let by_inner: Vec<f64> = self.outer().into_iter().map(|(_, slope)| slope).collect();
-        let at = |row: usize, column: usize| held.slopes[row][column] * by_inner[column];
-        Some(DMatrix::from_fn(held.values.len(), by_inner.len(), at))
+        Some(DMatrix::from_fn(held.values.len(), by_inner.len(), |row, column| {
+            held.slopes[row][column] * by_inner[column]
+        }))
     }
 }
 

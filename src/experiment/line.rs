@@ -55,8 +55,7 @@ pub fn line(x: &[f64], y: &[f64]) -> Option<Line> {
     if count < 3 {
         return None;
     }
-    let mean = |it: &[f64]| it.iter().sum::<f64>() / count as f64;
-    let (x_mean, y_mean) = (mean(x), mean(y));
+    let [x_mean, y_mean] = [x, y].map(|it| it.iter().sum::<f64>() / count as f64);
     let u: Vec<f64> = x.iter().map(|it| it - x_mean).collect();
     let square: f64 = u.iter().map(|it| it * it).sum();
     let extent = x.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
@@ -65,8 +64,9 @@ pub fn line(x: &[f64], y: &[f64]) -> Option<Line> {
     }
     let slope = u.iter().zip(y).map(|(u, y)| u * (y - y_mean)).sum::<f64>() / square;
     let height = y.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
-    let clear = |it: f64| if it.abs() <= ROUNDING * height { 0.0 } else { it };
-    let residuals: Vec<f64> = u.iter().zip(y).map(|(u, y)| clear(y - y_mean - slope * u)).collect();
+    let residuals = u.iter().zip(y).map(|(u, y)| y - y_mean - slope * u);
+    let residuals = residuals.map(|it| if it.abs() <= ROUNDING * height { 0.0 } else { it });
+    let residuals: Vec<f64> = residuals.collect();
     let left: f64 = residuals.iter().map(|it| it * it).sum();
     let freedom = count - 2;
     let scatter = (left / freedom as f64).sqrt();
@@ -165,8 +165,14 @@ pub fn outliers(residuals: &[f64], parameters: usize) -> Vec<Outlier> {
     if deviation <= 0.0 {
         return Vec::new();
     }
-    let outlier = |(i, it): (usize, &f64)| Outlier { row: i + 1, deviations: it / deviation };
-    residuals.iter().enumerate().map(outlier).filter(|it| it.deviations.abs() > FAR).collect()
+    let mut outliers = Vec::new();
+    for (i, residual) in residuals.iter().enumerate() {
+        let deviations = residual / deviation;
+        if deviations.abs() > FAR {
+            outliers.push(Outlier { row: i + 1, deviations });
+        }
+    }
+    outliers
 }
 
 /// How much higher y lies on rows where x falls than on rows where it rises, where both are many and the difference is no chance.
@@ -178,19 +184,22 @@ pub fn outliers(residuals: &[f64], parameters: usize) -> Vec<Outlier> {
 pub fn hysteresis(x: &[f64], residuals: &[f64]) -> Option<f64> {
     let steps: Vec<f64> = x.windows(2).map(|it| it[1] - it[0]).collect();
     let directions = steps.iter().take(1).chain(&steps);
-    let of = |sign: f64| {
-        let chosen =
-            residuals.iter().zip(directions.clone()).filter(|(_, step)| **step * sign > 0.0);
-        chosen.map(|(residual, _)| *residual).collect::<Vec<f64>>()
-    };
-    let both = [of(1.0), of(-1.0)];
+    let (mut rising, mut falling) = (Vec::new(), Vec::new());
+    for (residual, step) in residuals.iter().zip(directions) {
+        match step {
+            _ if *step > 0.0 => rising.push(*residual),
+            _ if *step < 0.0 => falling.push(*residual),
+            _ => {}
+        }
+    }
+    let both = [rising, falling];
     if both.iter().any(|it| it.len() < 3) {
         return None;
     }
     let means = both.each_ref().map(|it| it.iter().sum::<f64>() / it.len() as f64);
-    let square = |i: usize| both[i].iter().map(|it| (it - means[i]).powi(2)).sum::<f64>();
+    let squares = [0, 1].map(|i| both[i].iter().map(|it| (it - means[i]).powi(2)).sum::<f64>());
     let freedom = both[0].len() + both[1].len() - 3;
-    let variance = (square(0) + square(1)) / freedom as f64;
+    let variance = (squares[0] + squares[1]) / freedom as f64;
     let difference = means[1] - means[0];
     let share = 1.0 / both[0].len() as f64 + 1.0 / both[1].len() as f64;
     let chance = chance_of_ratio(difference * difference / (variance * share), [1, freedom]);
@@ -204,8 +213,8 @@ fn halves(x: &[f64], y: &[f64], slope: f64) -> [f64; 2] {
     let (low, high) = points.split_at(points.len() / 2);
     [low, high].map(|half| {
         let count = half.len() as f64;
-        let mean = |of: fn(&(f64, f64)) -> f64| half.iter().map(of).sum::<f64>() / count;
-        let (x_mean, y_mean) = (mean(|it| it.0), mean(|it| it.1));
+        let x_mean = half.iter().map(|it| it.0).sum::<f64>() / count;
+        let y_mean = half.iter().map(|it| it.1).sum::<f64>() / count;
         let square: f64 = half.iter().map(|it| (it.0 - x_mean).powi(2)).sum();
         let product: f64 = half.iter().map(|it| (it.0 - x_mean) * (it.1 - y_mean)).sum();
         if square > 0.0 { product / square } else { slope }

@@ -1,6 +1,6 @@
 //! How far a fit leaves recorded histories from their noise, and how many samples are outliers.
 
-use super::free_vibration::noise;
+use super::noise::noise;
 use super::recording::median;
 
 /// An outlier is so many standard deviations of the noise from the fit.
@@ -71,10 +71,9 @@ pub fn misfit(signals: &[SignalResiduals], freedom: usize) -> Misfit {
         squares += square;
         shares += square * (unit / record_noise).powi(2);
         medians += sizes.len() as f64 * robust_deviation(&sizes).powi(2);
-        let is_far = |i: usize| sizes.get(i).is_some_and(|it| *it > FAR);
-        let far = (0..sizes.len()).filter(|&i| is_far(i));
-        outliers += far.clone().count();
-        lone += far.filter(|&i| !is_far(i + 1) && (i == 0 || !is_far(i - 1))).count();
+        let far: Vec<usize> = (0..sizes.len()).filter(|&i| sizes[i] > FAR).collect();
+        outliers += far.len();
+        lone += far.chunk_by(|i, next| i + 1 == *next).filter(|run| run.len() == 1).count();
         samples += sizes.len();
     }
     let freedom = freedom as f64;

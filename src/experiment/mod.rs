@@ -2,6 +2,7 @@
 
 pub mod agreement;
 mod beginning;
+mod coast_down;
 pub mod comparison;
 pub mod course;
 mod course_residuals;
@@ -22,6 +23,7 @@ pub mod line;
 pub mod loss;
 pub mod misfit;
 pub mod motion_fit;
+mod noise;
 mod periodogram;
 mod polynomial;
 pub mod profile;
@@ -35,6 +37,7 @@ pub mod simulated_span;
 pub mod smoothing;
 pub mod spikes;
 pub mod synthesis;
+mod turning_points;
 mod wide_window;
 
 pub use crate::capsule::sampled::{Direction, Samples, Signal, Started, sampled};

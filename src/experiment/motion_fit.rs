@@ -1,7 +1,9 @@
 //! Fits chosen parameters to recorded histories of the motion, several recordings at once.
 
+use nalgebra::DMatrix;
+
 use super::course::{Course, Recorded, Weights};
-use super::course_residuals::{by_signal, motions, residuals, signals};
+use super::course_residuals::{Recordings, by_signal, motions, signals};
 use super::drift::{Drift, drifts};
 pub use super::effort::Effort;
 use super::effort::search;
@@ -85,12 +87,36 @@ pub fn fit_motion(
 ) -> Result<MotionFit, String> {
     let Best { courses, fit, starts, .. } = best(recordings, free, effort)?;
     let search = search(&courses, free, effort);
-    let model = |unknowns: &[f64]| residuals(&courses, free, unknowns);
+    let model = Recordings { courses: &courses, free };
     let which: Vec<usize> = (0..free.len()).collect();
     let profiles =
         in_threads(&which, effort.threads, |&which| profile_points(&model, &fit, &search, which));
     let (profiles, points): (Vec<Profile>, Vec<_>) = profiles.into_iter().unzip();
-    let fitted = free.iter().zip(profiles).enumerate().map(|(i, (free, profile))| Fitted {
+    let fitted = free.iter().zip(profiles).enumerate();
+    let all = 0..free.len();
+    let covariance = &fit.covariance.covariance;
+    let correlations = all.clone().map(|i| all.clone().map(move |j| correlation(covariance, i, j)));
+    let covariances = all.clone().map(|i| all.clone().map(move |j| covariance[(i, j)]));
+    Ok(MotionFit {
+        fitted: fitted
+            .map(|(i, (free, profile))| fitted_parameter(&fit, i, free, profile))
+            .collect(),
+        motions: motions(&courses, free, &fit.parameters),
+        combined: all.clone().filter(|&i| fit.is_open(i)).map(|i| free[i].parameter).collect(),
+        correlations: correlations.map(Iterator::collect).collect(),
+        covariance: covariances.map(Iterator::collect).collect(),
+        profiles: points,
+        misfit: misfit(&signals(&courses, free, &fit), fit.degrees_of_freedom),
+        samples: fit.degrees_of_freedom + fit.parameters.len(),
+        starts,
+        rests: courses.iter().map(Course::rests).collect(),
+        drifts: drifts(&courses, free, effort, &fit),
+    })
+}
+
+/// Parameter `i` of a fit with its profile.
+fn fitted_parameter(fit: &Fit, i: usize, free: &Free, profile: Profile) -> Fitted {
+    Fitted {
         parameter: free.parameter,
         estimate: Estimate {
             value: fit.parameters[i],
@@ -102,28 +128,15 @@ pub fn fit_motion(
             false => profile.verdict(),
         },
         bound: Side::of(fit.parameters[i], free.bounds),
-    });
-    let covariance = &fit.covariance.covariance;
-    let covariances = |i: usize| (0..free.len()).map(|j| covariance[(i, j)]).collect();
-    let correlation =
-        |i: usize, j: usize| match [i, j].iter().all(|&it| covariance[(it, it)].is_finite()) {
-            true => covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt(),
-            false => f64::NAN,
-        };
-    let row = |i: usize| (0..free.len()).map(|j| correlation(i, j)).collect();
-    Ok(MotionFit {
-        fitted: fitted.collect(),
-        motions: motions(&courses, free, &fit.parameters),
-        combined: (0..free.len()).filter(|&i| fit.is_open(i)).map(|i| free[i].parameter).collect(),
-        correlations: (0..free.len()).map(row).collect(),
-        covariance: (0..free.len()).map(covariances).collect(),
-        profiles: points,
-        misfit: misfit(&signals(&courses, free, &fit), fit.degrees_of_freedom),
-        samples: fit.degrees_of_freedom + fit.parameters.len(),
-        starts,
-        rests: courses.iter().map(Course::rests).collect(),
-        drifts: drifts(&courses, free, effort, &fit),
-    })
+    }
+}
+
+/// The correlation of two parameters; NaN where one is not determined.
+fn correlation(covariance: &DMatrix<f64>, i: usize, j: usize) -> f64 {
+    match [i, j].iter().all(|&it| covariance[(it, it)].is_finite()) {
+        true => covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt(),
+        false => f64::NAN,
+    }
 }
 
 /// The best values of the parameters alone, without intervals, and the standard deviation of the residuals as they are weighed; see
@@ -155,13 +168,12 @@ fn best<'r>(
         recordings.iter().map(|it| Course::new(it, effort.weights)).collect::<Result<_, _>>()?;
     let starts = starts(&courses, free, effort.starts, effort.loss);
     let search = search(&courses, free, effort);
-    let model = |unknowns: &[f64]| residuals(&courses, free, unknowns);
+    let model = Recordings { courses: &courses, free };
     let fits = in_threads(&starts, effort.threads, |start| fit_once(&model, start, &search, 1.0));
     let found: Vec<Fit> =
         fits.into_iter().flatten().filter(|it| it.sum_of_squares.is_finite()).collect();
-    let least = |a: &&Fit, b: &&Fit| a.sum_of_squares.total_cmp(&b.sum_of_squares);
-    let best =
-        found.iter().min_by(least).ok_or("the simulation cannot be followed from any start")?;
+    let best = found.iter().min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
+    let best = best.ok_or("the simulation cannot be followed from any start")?;
     let same =
         found.iter().filter(|it| it.sum_of_squares <= best.sum_of_squares * (1.0 + 1e-4)).count();
     let fit = other_speeds(&courses, free, effort, best.clone());
@@ -190,6 +202,6 @@ fn weighed_anew(courses: &mut [Course<'_>], free: &[Free], effort: &Effort, best
         *unit *= scatter.max(1e-3);
     }
     let search = search(courses, free, effort);
-    let model = |unknowns: &[f64]| residuals(courses, free, unknowns);
+    let model = Recordings { courses, free };
     fit_once(&model, &best.parameters, &search, 1.0).unwrap_or(best)
 }

@@ -39,18 +39,17 @@ pub fn strongest(times: &[f64], values: &[f64]) -> Option<f64> {
         binned[bin].re += value - mean;
     }
     FftPlanner::new().plan_fft_forward(binned.len()).process(&mut binned);
-    let omega = |i: usize| TAU * i as f64 / (PER_LINE as f64 * span);
     let greatest = count.min(bins / 2);
     let near = (PER_LINE..=greatest)
         .max_by(|&a, &b| binned[a].norm_sqr().total_cmp(&binned[b].norm_sqr()))
         .filter(|&i| binned[i].norm_sqr() > 0.0)?;
-    let exact = |i: usize| {
-        let term = |(time, value): (&f64, &f64)| {
-            Complex::from_polar(value - mean, omega(i) * (time - times[0]))
-        };
-        times.iter().zip(values).map(term).sum::<Complex<f64>>().norm_sqr()
-    };
     let least = near.saturating_sub(NEIGHBOURS).max(PER_LINE);
-    let candidates = (least..=near + NEIGHBOURS).map(|i| (exact(i), omega(i)));
+    let candidates = (least..=near + NEIGHBOURS).map(|i| {
+        let omega = TAU * i as f64 / (PER_LINE as f64 * span);
+        let pairs = times.iter().zip(values);
+        let terms =
+            pairs.map(|(time, value)| Complex::from_polar(value - mean, omega * (time - times[0])));
+        (terms.sum::<Complex<f64>>().norm_sqr(), omega)
+    });
     candidates.max_by(|a, b| a.0.total_cmp(&b.0)).map(|it| it.1)
 }

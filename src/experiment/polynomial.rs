@@ -83,12 +83,12 @@ impl Polynomial {
         let mut total = 0.0;
         for (k, coefficient) in self.coefficients.iter().enumerate() {
             total += coefficient * this[order];
-            let next = |d: usize| {
+            // From the highest order down, as each needs the one below of the polynomial before it.
+            for d in (0..=order).rev() {
                 let lower = if d == 0 { 0.0 } else { d as f64 * this[d - 1] };
-                lower + (u - self.shifts[k]) * this[d] - self.weights[k] * before[d]
-            };
-            let after = (0..=order).map(next).collect();
-            before = std::mem::replace(&mut this, after);
+                let next = lower + (u - self.shifts[k]) * this[d] - self.weights[k] * before[d];
+                (before[d], this[d]) = (this[d], next);
+            }
         }
         total * self.scale.powi(order as i32)
     }

@@ -97,9 +97,12 @@ pub fn profile_points(
 ) -> (Profile, Vec<[f64; 2]>) {
     let bounds = search.bounds[which];
     let points = RefCell::new(vec![[best.parameters[which], 0.0]]);
-    let walk = |side: usize| Walk { model, best, search, which, points: &points }.end(side);
-    let ends = [0, 1].map(walk);
     let limits = [bounds.least, bounds.greatest];
+    let ends = [-1.0, 1.0].map(|sign| {
+        let mut others = best.parameters.clone();
+        others.remove(which);
+        Walk { model, best, search, which, sign, others, points: &points }.end()
+    });
     let profile = Profile {
         interval: [0, 1].map(|side| ends[side].unwrap_or(limits[side])),
         is_limited: ends.map(|end| end.is_some()),
@@ -110,86 +113,103 @@ pub fn profile_points(
     (profile, points)
 }
 
+/// The search for an end of the interval.
 struct Walk<'a, M> {
     model: &'a M,
     best: &'a Fit,
     search: &'a Search,
     which: usize,
+    /// Whether it is the lower (-1) or the upper (1) end.
+    sign: f64,
+    /// The other parameters as they were fitted last.
+    others: Vec<f64>,
     /// Points of the profile, as they are computed.
     points: &'a RefCell<Vec<[f64; 2]>>,
 }
 
+/// A distance from the best value, and how high the profile is there above the end of the interval.
+#[derive(Clone, Copy)]
+struct Place {
+    distance: f64,
+    height: f64,
+}
+
 impl<M: Model> Walk<'_, M> {
-    /// Where the profile ends on the lower (0) or upper (1) side; none where a bound comes first.
-    fn end(&self, side: usize) -> Option<f64> {
+    /// Where the profile ends; none where a bound comes first.
+    fn end(mut self) -> Option<f64> {
         let Bounds { least, greatest } = self.search.bounds[self.which];
-        let (bound, sign) = if side == 0 { (least, -1.0) } else { (greatest, 1.0) };
+        let bound = if self.sign < 0.0 { least } else { greatest };
         let centre = self.best.parameters[self.which];
-        let room = (bound - centre) * sign;
+        let room = (bound - centre) * self.sign;
         if room <= 0.0 {
             return None;
         }
+        let [inside, outside] = self.bracket(room)?;
+        Some(centre + self.sign * self.crossing(inside, outside))
+    }
+
+    /// The profile so far from the best value.
+    fn at(&mut self, distance: f64) -> Place {
+        let value = self.best.parameters[self.which] + self.sign * distance;
+        Place { distance, height: self.excess(value).max(0.0).sqrt() - 1.0 }
+    }
+
+    /// Places within the interval and beyond its end, which is no further than `room`.
+    fn bracket(&mut self, room: f64) -> Option<[Place; 2]> {
         let error = self.best.standard_error(self.which);
         let expected = student(self.best.degrees_of_freedom) * error;
         let first = if expected.is_finite() && expected > 0.0 { expected } else { 0.05 * room };
-        let mut others = self.others(&self.best.parameters);
-        let mut height =
-            |at: f64| self.excess(centre + sign * at, &mut others).max(0.0).sqrt() - 1.0;
-        // Distances from the best value within the interval and beyond its end, with the heights of the profile there.
-        let (mut inside, mut outside, mut step) = ((0.0, -1.0), None, first.min(room));
+        let (mut inside, mut step) = (Place { distance: 0.0, height: -1.0 }, first.min(room));
         for _ in 0..STEPS {
-            let at = (inside.0 + step).min(room);
-            let here = height(at);
-            if here > 0.0 {
-                outside = Some((at, here));
-                break;
+            let here = self.at((inside.distance + step).min(room));
+            if here.height > 0.0 {
+                return Some([inside, here]);
             }
-            if at >= room {
+            if here.distance >= room {
                 return None;
             }
-            (inside, step) = ((at, here), if here > -0.2 { 0.2 * at } else { 1.6 * step });
+            step = if here.height > -0.2 { 0.2 * here.distance } else { 1.6 * step };
+            inside = here;
         }
-        let mut outside = outside?;
+        None
+    }
+
+    /// How far the end is from the best value, which lies between these places.
+    fn crossing(&mut self, mut inside: Place, mut outside: Place) -> f64 {
         for turn in 0..STEPS {
-            if outside.0 - inside.0 <= NEAR * outside.0 {
+            if outside.distance - inside.distance <= NEAR * outside.distance {
                 break;
             }
-            let share = if outside.1.is_finite() && turn % 3 < 2 {
+            let share = if outside.height.is_finite() && turn % 3 < 2 {
                 // Towards the far side by a little, so that both close in.
-                (inside.1 / (inside.1 - outside.1) + if turn % 2 == 0 { NEAR } else { -NEAR })
-                    .clamp(0.0005, 0.9995)
+                let straight = inside.height / (inside.height - outside.height);
+                (straight + if turn % 2 == 0 { NEAR } else { -NEAR }).clamp(0.0005, 0.9995)
             } else {
                 0.5
             };
-            let at = inside.0 + share * (outside.0 - inside.0);
-            let here = height(at);
-            if here > 0.0 { outside = (at, here) } else { inside = (at, here) }
+            let here = self.at(inside.distance + share * (outside.distance - inside.distance));
+            if here.height > 0.0 { outside = here } else { inside = here }
         }
-        let share = if outside.1.is_finite() { inside.1 / (inside.1 - outside.1) } else { 0.5 };
-        Some(centre + sign * (inside.0 + share * (outside.0 - inside.0)))
+        let share = match outside.height.is_finite() {
+            true => inside.height / (inside.height - outside.height),
+            false => 0.5,
+        };
+        inside.distance + share * (outside.distance - inside.distance)
     }
 
     /// How far the sum of squares has grown with the parameter held at `value`, in units of what ends the interval. The
-    /// others are fitted, from `others`, which become the fitted ones.
-    fn excess(&self, value: f64, others: &mut Vec<f64>) -> f64 {
-        let model = |free: &[f64]| {
-            let mut all = free.to_vec();
-            all.insert(self.which, value);
-            let mut residuals = self.model.residuals(&all)?;
-            residuals.slopes.iter_mut().for_each(|row| {
-                row.remove(self.which);
-            });
-            Some(residuals)
-        };
-        let sum = match others.is_empty() {
-            true => model(&[]).map(|it: Residuals| it.values.iter().map(|it| it * it).sum::<f64>()),
+    /// others are fitted from where they were last.
+    fn excess(&mut self, value: f64) -> f64 {
+        let model = Held { model: self.model, which: self.which, value };
+        let sum = match self.others.is_empty() {
+            true => model.residuals(&[]).map(|it| it.values.iter().map(|it| it * it).sum::<f64>()),
             false => {
                 let mut search = self.search.clone();
                 search.bounds.remove(self.which);
-                let fitted = fit_once(&model, others, &search, 1.0);
+                let fitted = fit_once(&model, &self.others, &search, 1.0);
                 let usable = fitted.filter(|it| it.termination != Termination::NoValue);
                 usable.map(|fit| {
-                    *others = fit.parameters;
+                    self.others = fit.parameters;
                     fit.sum_of_squares
                 })
             }
@@ -200,11 +220,24 @@ impl<M: Model> Walk<'_, M> {
         self.points.borrow_mut().push([value, grown]);
         grown
     }
+}
 
-    fn others(&self, parameters: &[f64]) -> Vec<f64> {
-        let mut others = parameters.to_vec();
-        others.remove(self.which);
-        others
+/// A model with one of its parameters held at a value.
+struct Held<'m, M> {
+    model: &'m M,
+    which: usize,
+    value: f64,
+}
+
+impl<M: Model> Model for Held<'_, M> {
+    fn residuals(&self, others: &[f64]) -> Option<Residuals> {
+        let mut all = others.to_vec();
+        all.insert(self.which, self.value);
+        let mut residuals = self.model.residuals(&all)?;
+        for row in &mut residuals.slopes {
+            row.remove(self.which);
+        }
+        Some(residuals)
     }
 }
 
@@ -226,22 +259,23 @@ pub(super) fn merged(mut ranges: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 
 /// The least value of a function with one minimum in a range, with where it is, by golden section.
 pub(super) fn least(function: &dyn Fn(f64) -> f64, [mut a, mut b]: [f64; 2]) -> (f64, f64) {
-    let (share, steps) = GOLDEN;
-    let inner = |from: f64, to: f64| {
-        let at = to - share * (to - from);
-        (at, function(at))
-    };
-    let (mut low, mut high) = (inner(a, b), inner(b, a));
-    for _ in 0..steps {
+    let (mut low, mut high) = (inner(function, a, b), inner(function, b, a));
+    for _ in 0..GOLDEN.1 {
         if low.1 <= high.1 {
             (b, high) = (high.0, low);
-            low = inner(a, b);
+            low = inner(function, a, b);
         } else {
             (a, low) = (low.0, high);
-            high = inner(b, a);
+            high = inner(function, b, a);
         }
     }
     if low.1 <= high.1 { low } else { high }
+}
+
+/// The point that divides a range by the golden section, nearer to its first end, with the value there.
+fn inner(function: &dyn Fn(f64) -> f64, from: f64, to: f64) -> (f64, f64) {
+    let at = to - GOLDEN.0 * (to - from);
+    (at, function(at))
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! How fast a record or a simulation advances, with a standard error where one is known.
 
+use std::ops::Range;
+
 use super::estimate::Estimate;
 use super::recording::{GAP, median};
 
@@ -63,16 +65,13 @@ pub fn progression(
     if cycles < LEAST_MEANS {
         return None;
     }
-    let between = |from: usize, to: usize| {
-        let [begins, ends] = [from, to].map(|it| (it as f64 * cycle).min(last));
-        (record.value(ends) - record.value(begins)) / (ends - begins)
-    };
     let length = cycles / BATCHES;
     let batches = if length < LEAST_BATCH { 0 } else { cycles / length };
-    let speeds: Vec<f64> = (0..batches).map(|i| between(i * length, (i + 1) * length)).collect();
+    let each = (0..batches).map(|i| i * length..(i + 1) * length);
+    let speeds: Vec<f64> = each.map(|cycles| record.speed_over(cycles, cycle)).collect();
     let is_known = period.is_none() && batches >= BATCHES;
     Some(Progression {
-        value: between(0, cycles),
+        value: record.speed_over(0..cycles, cycle),
         standard_error: is_known.then(|| Estimate::mean(&speeds).standard_error),
         batches: is_known.then_some(batches),
     })
@@ -92,8 +91,8 @@ pub fn own_progression(times: &[f64], x: &[f64], cycle: f64) -> f64 {
 /// The slope of the line through at least three points that differ in their abscissae, by least squares.
 fn slope(points: &[(f64, f64)]) -> Estimate {
     let count = points.len() as f64;
-    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
-    let (at, level) = (mean(|it| it.0), mean(|it| it.1));
+    let at = points.iter().map(|it| it.0).sum::<f64>() / count;
+    let level = points.iter().map(|it| it.1).sum::<f64>() / count;
     let square: f64 = points.iter().map(|it| (it.0 - at).powi(2)).sum();
     let slope = points.iter().map(|it| (it.0 - at) * (it.1 - level)).sum::<f64>() / square;
     let left: f64 = points.iter().map(|it| (it.1 - level - slope * (it.0 - at)).powi(2)).sum();
@@ -133,6 +132,13 @@ impl<'r> Integrated<'r> {
         self.at(time).1
     }
 
+    /// The mean speed over some cycles, as far as they are recorded.
+    fn speed_over(&self, cycles: Range<usize>, cycle: f64) -> f64 {
+        let last = self.times[self.times.len() - 1];
+        let [begins, ends] = [cycles.start, cycles.end].map(|it| (it as f64 * cycle).min(last));
+        (self.value(ends) - self.value(begins)) / (ends - begins)
+    }
+
     fn integral(&self, time: f64) -> f64 {
         let (before, value) = self.at(time);
         self.sums[before] + 0.5 * (time - self.times[before]) * (self.values[before] + value)
@@ -142,17 +148,19 @@ impl<'r> Integrated<'r> {
     fn means(&self, length: f64) -> Vec<(f64, f64)> {
         let first = self.times[0];
         let count = ((self.times[self.times.len() - 1] - first) / length).floor() as usize;
-        let is_gap = |pair: &&[f64]| pair[1] - pair[0] > GAP * self.interval;
-        let gaps: Vec<&[f64]> = self.times.windows(2).filter(is_gap).collect();
-        let parts = (0..count).map(|i| [i, i + 1].map(|it| first + it as f64 * length));
-        let is_whole = |part: &[f64; 2]| {
-            let next = gaps.partition_point(|it| it[1] <= part[0]);
-            gaps.get(next).is_none_or(|it| it[0] >= part[1])
-        };
-        let mean = |[from, to]: [f64; 2]| {
-            (0.5 * (from + to), (self.integral(to) - self.integral(from)) / (to - from))
-        };
-        parts.filter(is_whole).map(mean).collect()
+        let pairs = self.times.windows(2);
+        let gaps: Vec<&[f64]> =
+            pairs.filter(|pair| pair[1] - pair[0] > GAP * self.interval).collect();
+        let mut means = Vec::new();
+        for i in 0..count {
+            let [from, to] = [i, i + 1].map(|it| first + it as f64 * length);
+            let next = gaps.partition_point(|it| it[1] <= from);
+            if gaps.get(next).is_none_or(|it| it[0] >= to) {
+                let mean = (self.integral(to) - self.integral(from)) / (to - from);
+                means.push((0.5 * (from + to), mean));
+            }
+        }
+        means
     }
 }
 

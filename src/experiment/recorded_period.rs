@@ -1,6 +1,6 @@
 //! After how many cycles a record repeats itself.
 
-use super::free_vibration::noise;
+use super::noise::noise;
 
 /// The longest period that is looked for in a record [cycles].
 pub const LONGEST: u64 = 8;
@@ -15,22 +15,24 @@ pub fn period_of(times: &[f64], values: &[f64], cycle: f64) -> Option<u64> {
     let deviation =
         (values.iter().map(|it| (it - mean).powi(2)).sum::<f64>() / values.len() as f64).sqrt();
     let allowed = (3.0 * std::f64::consts::SQRT_2 * noise(values)).max(0.02 * deviation);
-    let later = |time: f64| {
-        let after = times.partition_point(|it| *it < time).max(1);
-        let (a, b) = (after - 1, after);
-        let share = (time - times[a]) / (times[b] - times[a]);
-        values[a] + share * (values[b] - values[a])
-    };
     (1..=LONGEST).find(|&count| {
         let shift = count as f64 * cycle;
         let last = times[times.len() - 1];
         let pairs = times.iter().zip(values).filter(|(time, _)| **time + shift <= last);
-        let squares: Vec<f64> =
-            pairs.map(|(time, value)| (later(time + shift) - value).powi(2)).collect();
+        let apart = pairs.map(|(time, value)| interpolated(times, values, time + shift) - value);
+        let squares: Vec<f64> = apart.map(|it| it.powi(2)).collect();
         // A comparison over less than a cycle would say nothing.
         let is_long = last - shift >= cycle;
         is_long && (squares.iter().sum::<f64>() / squares.len() as f64).sqrt() < allowed
     })
+}
+
+/// The value at a time, on the straight line between the samples about it.
+fn interpolated(times: &[f64], values: &[f64], time: f64) -> f64 {
+    let after = times.partition_point(|it| *it < time).max(1);
+    let (a, b) = (after - 1, after);
+    let share = (time - times[a]) / (times[b] - times[a]);
+    values[a] + share * (values[b] - values[a])
 }
 
 #[cfg(test)]

@@ -118,17 +118,15 @@ impl Recording {
         let times = self.required("t");
         let intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let interval = median(&intervals);
-        let is_gap = |length: f64| length > GAP * interval;
-        let gaps = times.iter().zip(&intervals).filter(|(_, length)| is_gap(**length));
-        let apart =
-            |length: &&f64| !is_gap(**length) && (**length - interval).abs() > EVEN * interval;
-        Sampling {
-            count: times.len(),
-            first: times[0],
-            interval,
-            is_even: !intervals.iter().any(|length| apart(&length)),
-            gaps: gaps.map(|(begins, length)| (*begins, *length)).collect(),
+        let (mut gaps, mut is_even) = (Vec::new(), true);
+        for (&begins, &length) in times.iter().zip(&intervals) {
+            if length > GAP * interval {
+                gaps.push((begins, length));
+            } else if (length - interval).abs() > EVEN * interval {
+                is_even = false;
+            }
         }
+        Sampling { count: times.len(), first: times[0], interval, is_even, gaps }
     }
 }
 
@@ -141,19 +139,15 @@ impl Sampling {
 
     /// The samples of each part of the record without a gap, by its times since any moment.
     pub fn parts(&self, times: &[f64]) -> Vec<Range<usize>> {
-        let place = |(begins, _): &(f64, f64)| {
-            times.partition_point(|time| {
-                time - times[0] <= begins - self.first + 0.5 * self.interval
-            })
-        };
-        let ends = self.gaps.iter().map(place).chain([times.len()]);
-        let mut from = 0;
-        let parts = ends.map(|end| {
-            let part = from..end.max(from);
-            from = end.max(from);
-            part
-        });
-        parts.collect()
+        let (mut parts, mut from) = (Vec::new(), 0);
+        for (begins, _) in &self.gaps {
+            let ends = begins - self.first + 0.5 * self.interval;
+            let end = times.partition_point(|time| time - times[0] <= ends).max(from);
+            parts.push(from..end);
+            from = end;
+        }
+        parts.push(from..times.len().max(from));
+        parts
     }
 }
 
@@ -168,9 +162,10 @@ impl fmt::Display for Sampling {
             [] => Ok(()),
             [(begins, length)] => write!(f, "; a gap of {length:.4} s at t = {begins:.6} s"),
             gaps => {
-                let told =
-                    |(begins, length): &(f64, f64)| format!("{length:.4} s at t = {begins:.6} s");
-                let named: Vec<String> = gaps.iter().take(MOST_GAPS).map(told).collect();
+                let first = gaps.iter().take(MOST_GAPS);
+                let named = first
+                    .map(|(begins, length)| format!("{length:.4} s at t = {begins:.6} s"))
+                    .collect::<Vec<_>>();
                 write!(f, "; {} gaps, of {}", gaps.len(), named.join(", "))?;
                 match gaps.len().saturating_sub(MOST_GAPS) {
                     0 => Ok(()),

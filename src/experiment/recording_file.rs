@@ -65,9 +65,8 @@ impl Reading<'_> {
     /// The line of the row at this byte, before which the reader may have left out lines.
     fn line(&self, at: u64) -> u64 {
         let (before, after) = self.text.split_at(at as usize);
-        let is_left_out = |line: &&str| line.is_empty() || line.starts_with('#');
-        let left_out = after.lines().take_while(is_left_out).count();
-        (before.matches('\n').count() + left_out + 1) as u64
+        let left_out = after.lines().take_while(|it| it.is_empty() || it.starts_with('#'));
+        (before.matches('\n').count() + left_out.count() + 1) as u64
     }
 
     fn recording(&mut self, source: &str, least: usize) -> Recording {
@@ -87,33 +86,42 @@ impl Reading<'_> {
         let mut columns: Vec<_> = found.iter().map(|it| (it.column, Vec::new())).collect();
         let mut places = Vec::new();
         for record in records {
-            let at = place_of(&record);
-            places.push(at);
-            // A quote that is not closed would make one cell of all rows that follow.
-            if record.iter().any(|cell| cell.contains(['\n', '\r'])) {
-                self.fault(at, |_| {
-                    "a cell has more than one line; a quote is not closed".to_owned()
-                });
-                continue;
-            }
-            if record.len() != header.len() {
-                self.fault(at, |_| row_length(&record, header.len()));
-                continue;
-            }
-            for (found, (_, values)) in found.iter().zip(&mut columns) {
-                match finite(&record[found.place], found.size) {
-                    Some(value) => values.push(value),
-                    None => self.fault(at, |_| {
-                        format!("{}: {}", found.column.name, unreadable(&record[found.place]))
-                    }),
-                }
-            }
+            places.push(place_of(&record));
+            self.row(&record, header.len(), &found, &mut columns);
         }
         let recording = Recording { source: source.to_owned(), columns, rows: places.len() };
         if self.count == 0 {
             self.rows(&recording, &places, least);
         }
         recording
+    }
+
+    /// Adds the numbers of a row, which has so many cells, to the columns.
+    fn row(
+        &mut self,
+        record: &StringRecord,
+        cells: usize,
+        found: &[Found],
+        columns: &mut [(Column, Vec<f64>)],
+    ) {
+        let at = place_of(record);
+        // A quote that is not closed would make one cell of all rows that follow.
+        if record.iter().any(|cell| cell.contains(['\n', '\r'])) {
+            self.fault(at, |_| "a cell has more than one line; a quote is not closed".to_owned());
+            return;
+        }
+        if record.len() != cells {
+            self.fault(at, |_| row_length(record, cells));
+            return;
+        }
+        for (found, (_, values)) in found.iter().zip(columns) {
+            match finite(&record[found.place], found.size) {
+                Some(value) => values.push(value),
+                None => self.fault(at, |_| {
+                    format!("{}: {}", found.column.name, unreadable(&record[found.place]))
+                }),
+            }
+        }
     }
 
     /// The known columns of a header.
@@ -184,8 +192,10 @@ fn place_of(record: &StringRecord) -> u64 {
 /// where they are equally many.
 fn delimiter(text: &str) -> u8 {
     let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty());
-    let count = |it: &u8| header.map_or(0, |line| line.bytes().filter(|byte| byte == it).count());
-    [b',', b'\t', b';'].into_iter().max_by_key(count).unwrap_or(b',')
+    let header = header.unwrap_or_default();
+    let delimiters = [b',', b'\t', b';'].into_iter();
+    let commonest = delimiters.max_by_key(|it| header.bytes().filter(|byte| byte == it).count());
+    commonest.unwrap_or(b',')
 }
 
 /// The name and the unit of a column, written "name [unit]", "name (unit)", "name in unit" or "name / unit".

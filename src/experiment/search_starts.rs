@@ -6,6 +6,9 @@ use super::free_parameter::Free;
 use super::least_squares::{Bounds, Loss};
 use crate::capsule::sampled::Started;
 
+/// Bases of the Halton sequence.
+const PRIMES: [u32; 14] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43];
+
 /// Where the search begins: the values of the first recording, then points of a Halton sequence within the bounds.
 pub(super) fn starts(
     courses: &[Course<'_>],
@@ -13,28 +16,37 @@ pub(super) fn starts(
     count: usize,
     loss: Loss,
 ) -> Vec<Vec<f64>> {
-    const PRIMES: [u32; 14] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43];
-    let value = |index: usize, i: usize, free: &Free| {
-        let Bounds { least, greatest } = free.bounds;
-        match index {
-            0 => courses[0].guess.parameters[free.parameter].clamp(least, greatest),
-            _ => {
-                let share = radical_inverse(index as u32, PRIMES[i % PRIMES.len()]);
-                least + (greatest - least) * share
-            }
-        }
-    };
-    let start = |index: usize| {
-        let pairs = free.iter().enumerate();
-        let mut unknowns: Vec<f64> = pairs.map(|(i, free)| value(index, i, free)).collect();
-        let parameters = unknowns.clone();
+    let mut starts = Vec::new();
+    for index in 0..count.max(1) {
+        let parameters = match index {
+            0 => first_parameters(&courses[0], free),
+            _ => halton_point(index as u32, free),
+        };
+        let mut unknowns = parameters.clone();
         for course in courses {
             let motion = begun(course, free, &parameters, loss);
             unknowns.extend(course.unknown.iter().map(|(direction, _)| motion.value(*direction)));
         }
-        unknowns
-    };
-    (0..count.max(1)).map(start).collect()
+        starts.push(unknowns);
+    }
+    starts
+}
+
+/// The values that a recording has, within the bounds.
+fn first_parameters(course: &Course<'_>, free: &[Free]) -> Vec<f64> {
+    let values = free.iter().map(|Free { parameter, bounds }| {
+        course.guess.parameters[*parameter].clamp(bounds.least, bounds.greatest)
+    });
+    values.collect()
+}
+
+/// A point of a Halton sequence within the bounds.
+fn halton_point(index: u32, free: &[Free]) -> Vec<f64> {
+    let values = free.iter().zip(PRIMES.iter().cycle()).map(|(free, prime)| {
+        let Bounds { least, greatest } = free.bounds;
+        least + (greatest - least) * radical_inverse(index, *prime)
+    });
+    values.collect()
 }
 
 /// The motion of a recording as its search begins with these parameters: at the speed that describes it best, where none is measured.

@@ -42,11 +42,13 @@ impl Settled {
         let value = orbit.outputs[capsule::Output::ProgressionSpeed];
         let repeats = orbit.outcome == Outcome::Periodic;
         let batches = if repeats { None } else { outputs_of_batches(case, &orbit.end, &protocol) };
-        let speed_of = |it: &Outputs| it[capsule::Output::ProgressionSpeed];
-        let speeds = batches.map(|all| all.iter().map(speed_of).collect::<Vec<_>>());
+        let error = batches.map(|all| {
+            let speeds = all.iter().map(|it| it[capsule::Output::ProgressionSpeed]);
+            Estimate::mean(&speeds.collect::<Vec<_>>()).standard_error
+        });
         let speed = Progression {
             value,
-            standard_error: speeds.map(|it| Estimate::mean(&it).standard_error),
+            standard_error: error,
             batches: (!repeats).then_some(BATCHES as usize),
         };
         let measured_cycles = protocol.measured_cycles;

@@ -70,24 +70,40 @@ pub fn smoothed(
     derivative: usize,
 ) -> Result<Vec<f64>, Unsuitable> {
     check(times, values, window)?;
-    let half = window.samples / 2;
-    let last = values.len() - window.samples;
-    let mut smooth = Vec::with_capacity(values.len());
-    let mut read = |begins: usize, polynomial: &Polynomial| {
+    let Window { samples, order } = window;
+    let mut smooth =
+        Smooth { times, samples, derivative, values: Vec::with_capacity(values.len()) };
+    if samples > WIDE {
+        wide_window::polynomials(times, values, samples, order, &mut |begins, polynomial| {
+            smooth.read(begins, polynomial);
+        });
+        return Ok(smooth.values);
+    }
+    for begins in 0..=values.len() - samples {
+        let range = begins..begins + samples;
+        smooth.read(begins, &Polynomial::fit(&times[range.clone()], &values[range], order));
+    }
+    Ok(smooth.values)
+}
+
+/// A derivative of a smoothed signal, as it is read window by window.
+struct Smooth<'t> {
+    times: &'t [f64],
+    /// Samples in a window.
+    samples: usize,
+    derivative: usize,
+    values: Vec<f64>,
+}
+
+impl Smooth<'_> {
+    /// Reads the polynomial of the window that begins at a sample: in its middle, and to the end in the first and the last.
+    fn read(&mut self, begins: usize, polynomial: &Polynomial) {
+        let (half, count) = (self.samples / 2, self.times.len());
         let from = if begins == 0 { 0 } else { begins + half };
-        let to = if begins == last { values.len() } else { begins + half + 1 };
-        let at = times[from..to].iter();
-        smooth.extend(at.map(|&time| polynomial.derivative(derivative, time)));
-    };
-    if window.samples > WIDE {
-        wide_window::polynomials(times, values, window.samples, window.order, &mut read);
-        return Ok(smooth);
+        let to = if begins == count - self.samples { count } else { begins + half + 1 };
+        let at = self.times[from..to].iter();
+        self.values.extend(at.map(|&time| polynomial.derivative(self.derivative, time)));
     }
-    for begins in 0..=last {
-        let range = begins..begins + window.samples;
-        read(begins, &Polynomial::fit(&times[range.clone()], &values[range], window.order));
-    }
-    Ok(smooth)
 }
 
 fn check(times: &[f64], values: &[f64], window: Window) -> Result<(), Unsuitable> {

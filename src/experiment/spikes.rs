@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::free_vibration::noise;
+use super::noise::noise;
 use super::recording::median;
 use super::smoothing::{Window, smoothed};
 use crate::capsule::Parameter;
@@ -86,17 +86,17 @@ pub fn spikes(times: &[f64], acceleration: &[f64], period: f64, cycle: f64) -> O
     let step = interval * together;
     let margin = (pulse.half() as f64 + 0.5) * step;
     let mut heights = pulse.heights(&even);
-    let greatest = |sign: f64| heights.iter().map(|it| sign * it).fold(0.0, f64::max);
-    let sign = if greatest(1.0) >= greatest(-1.0) { 1.0 } else { -1.0 };
-    let highest = greatest(sign);
+    let above = heights.iter().copied().fold(0.0, f64::max);
+    let below = heights.iter().map(|it| -it).fold(0.0, f64::max);
+    let (sign, highest) = if above >= below { (1.0, above) } else { (-1.0, below) };
     heights.iter_mut().for_each(|it| *it *= sign);
     let clear = CLEAR * noise(&even) * pulse.unit_error + OF_RECORD * deviation(&even);
-    let found = tops(&heights, clear.max(SHARE * highest), samples);
-    let spike = |(at, height): (f64, f64)| Spike {
+    let tops = tops(&heights, clear.max(SHARE * highest), samples);
+    let found = tops.into_iter().map(|(at, height)| Spike {
         time: times[0] + (at + pulse.half() as f64) * step + 0.5 * (step - interval),
         height: sign * height,
-    };
-    Some(Spikes { found: found.into_iter().map(spike).collect(), margin })
+    });
+    Some(Spikes { found: found.collect(), margin })
 }
 
 /// The maxima above a threshold, in samples, one per contact.
@@ -118,8 +118,13 @@ fn tops(heights: &[f64], least: f64, samples: f64) -> Vec<(f64, f64)> {
             _ => all.push((at, top)),
         }
     }
-    let is_first = |i: &usize| *i == 0 || all[*i].0 - all[i - 1].0 > ONE_CONTACT * samples;
-    (0..all.len()).filter(is_first).map(|i| all[i]).collect()
+    let mut firsts = Vec::new();
+    for (i, top) in all.iter().enumerate() {
+        if i == 0 || top.0 - all[i - 1].0 > ONE_CONTACT * samples {
+            firsts.push(*top);
+        }
+    }
+    firsts
 }
 
 /// Half a wave in a window, without its parts along the parabolas of the window.
@@ -134,17 +139,17 @@ impl Pulse {
     fn new(samples: f64) -> Pulse {
         let half = (0.5 * WINDOW * samples).round().max(4.0) as i32;
         let at: Vec<f64> = (-half..=half).map(f64::from).collect();
-        let wave = |u: &f64| if u.abs() < 0.25 * samples { (TAU * u / samples).cos() } else { 0.0 };
-        let mut weights: Vec<f64> = at.iter().map(wave).collect();
+        let wave = at.iter().map(|u| match u.abs() < 0.25 * samples {
+            true => (TAU * u / samples).cos(),
+            false => 0.0,
+        });
+        let mut weights: Vec<f64> = wave.collect();
         // The wave is even in time, so of a cubic only the constant and the square are not orthogonal to it.
         let square = at.iter().map(|u| u * u).sum::<f64>() / at.len() as f64;
-        for parabola in
-            [at.iter().map(|_| 1.0).collect(), at.iter().map(|u| u * u - square).collect()]
-        {
-            let parabola: Vec<f64> = parabola;
-            let product =
-                |other: &[f64]| -> f64 { parabola.iter().zip(other).map(|(a, b)| a * b).sum() };
-            let share = product(&weights) / product(&parabola);
+        let parabolas: [Vec<f64>; 2] =
+            [vec![1.0; at.len()], at.iter().map(|u| u * u - square).collect()];
+        for parabola in parabolas {
+            let share = product(&parabola, &weights) / product(&parabola, &parabola);
             weights.iter_mut().zip(&parabola).for_each(|(it, p)| *it -= share * p);
         }
         let norm: f64 = weights.iter().map(|it| it * it).sum();
@@ -159,9 +164,12 @@ impl Pulse {
 
     /// The height of the pulse about each sample that has a whole window.
     fn heights(&self, values: &[f64]) -> Vec<f64> {
-        let sum = |part: &[f64]| part.iter().zip(&self.weights).map(|(a, b)| a * b).sum();
-        values.windows(self.weights.len()).map(sum).collect()
+        values.windows(self.weights.len()).map(|part| product(part, &self.weights)).collect()
     }
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The means of a record over even intervals of this length; where one has no sample, the mean before it.
@@ -197,8 +205,8 @@ pub fn per_cycle(events: &[f64], cycle: f64, until: f64) -> f64 {
     let longest = early.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
     let begins = longest.map_or(0.0, |pair| 0.5 * (pair[0] + pair[1]));
     let whole = ((until - begins) / cycle).floor().max(1.0);
-    let is_within = |time: &&f64| (begins..begins + whole * cycle).contains(*time);
-    events.iter().filter(is_within).count() as f64 / whole
+    let window = begins..begins + whole * cycle;
+    events.iter().filter(|time| window.contains(time)).count() as f64 / whole
 }
 
 /// The times at which the relative displacement `r` rises through the gap `delta` and stays beyond it by three standard

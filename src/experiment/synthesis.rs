@@ -130,34 +130,25 @@ const CURRENT: f64 = 1.0;
 /// The capsule breaks away at max(mu_s, 2 mu_d) times its weight, which is what a pull test sees; the stop is linear, and the
 /// capsule coasts under the Coulomb-Stribeck law.
 pub fn simple_tests(parameters: &Parameters, laboratory: &Laboratory, seed: u64) -> SimpleTests {
-    let of = |parameter: Parameter| parameters[parameter];
     let mut noise = Noise::new(seed);
     let [loads, pulls, coasts, currents] = COUNTS;
-    let share = |i: u32, count: u32| f64::from(i) / f64::from(count - 1);
 
     let samples = (FREE_VIBRATION[0] * laboratory.rate) as u32;
     let times: Vec<f64> = (0..samples).map(|i| f64::from(i) / laboratory.rate).collect();
     let r = times.iter().map(|t| released(parameters, t - FREE_VIBRATION[1]));
     let r: Vec<f64> = r.map(|r| r + noise.normal(laboratory.r_noise)).collect();
 
-    let greatest = of(Parameter::K2) * DISPLACEMENTS[1];
+    let greatest = parameters[Parameter::K2] * DISPLACEMENTS[1];
     let forces: Vec<f64> = (0..loads).map(|i| greatest * share(i, loads)).collect();
-    let deflections = forces.iter().map(|force| force / of(Parameter::K2));
+    let deflections = forces.iter().map(|force| force / parameters[Parameter::K2]);
     let deflections =
         deflections.map(|it| it + noise.normal(laboratory.deflection_noise)).collect();
 
-    let breaking = parameters.break_away() / of(Parameter::G);
+    let breaking = parameters.break_away() / parameters[Parameter::G];
     let pull = (0..pulls).map(|_| breaking * (1.0 + noise.normal(laboratory.pull_scatter)));
     let pull: Vec<f64> = pull.collect();
 
-    let mut coasting = [Vec::new(), Vec::new()];
-    for i in 0..coasts {
-        let speed = SPEEDS[0] * (SPEEDS[1] / SPEEDS[0]).powf(share(i, coasts));
-        let constants = [Parameter::MuD, Parameter::Vs, Parameter::G].map(of);
-        let (distance, _) = coast_down(speed, constants[0], constants[1], constants[2]);
-        coasting[0].push(speed * (1.0 + noise.normal(laboratory.coasting_scatter)));
-        coasting[1].push(distance * (1.0 + noise.normal(laboratory.coasting_scatter)));
-    }
+    let coasting = coasting_tests(parameters, coasts, laboratory.coasting_scatter, &mut noise);
 
     let current: Vec<f64> =
         (0..currents).map(|i| CURRENT * (2.0 * share(i, currents) - 1.0)).collect();
@@ -172,11 +163,34 @@ pub fn simple_tests(parameters: &Parameters, laboratory: &Laboratory, seed: u64)
     }
 }
 
+/// Speeds and distances of so many coasting tests, each with this relative scatter.
+fn coasting_tests(
+    parameters: &Parameters,
+    count: u32,
+    scatter: f64,
+    noise: &mut Noise,
+) -> [Vec<f64>; 2] {
+    let [mu_d, v_s, g] = [Parameter::MuD, Parameter::Vs, Parameter::G].map(|it| parameters[it]);
+    let [mut speeds, mut distances] = [Vec::new(), Vec::new()];
+    for i in 0..count {
+        let speed = SPEEDS[0] * (SPEEDS[1] / SPEEDS[0]).powf(share(i, count));
+        let (distance, _) = coast_down(speed, mu_d, v_s, g);
+        speeds.push(speed * (1.0 + noise.normal(scatter)));
+        distances.push(distance * (1.0 + noise.normal(scatter)));
+    }
+    [speeds, distances]
+}
+
+/// How far test `i` of so many is from the first to the last.
+fn share(i: u32, count: u32) -> f64 {
+    f64::from(i) / f64::from(count - 1)
+}
+
 /// The displacement of the mass that was let go at rest so long ago [s], on a capsule that is held [m].
 fn released(parameters: &Parameters, time: f64) -> f64 {
-    let of = |parameter: Parameter| parameters[parameter];
-    let gamma = of(Parameter::C) / (2.0 * of(Parameter::M1));
-    let square = of(Parameter::K1) / of(Parameter::M1) - gamma * gamma;
+    let [m1, k1, c] = [Parameter::M1, Parameter::K1, Parameter::C].map(|it| parameters[it]);
+    let gamma = c / (2.0 * m1);
+    let square = k1 / m1 - gamma * gamma;
     let time = time.max(0.0);
     let decay = libm::exp(-gamma * time);
     // Beyond critical damping sin and cos become sinh and cosh.

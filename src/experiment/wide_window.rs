@@ -116,11 +116,11 @@ impl Group<'_> {
 /// The coefficients that solve the normal equations of these sums; none where polynomials are nearly dependent.
 fn corrections(sums: &[f64], terms: usize) -> Option<Vec<f64>> {
     let (triangle, right) = sums.split_at(terms * (terms + 1) / 2);
-    let entry = |i: usize, j: usize| {
+    let matrix = DMatrix::from_fn(terms, terms, |i, j| {
         let (row, column) = (i.max(j), i.min(j));
         triangle[row * (row + 1) / 2 + column]
-    };
-    let lower = DMatrix::from_fn(terms, terms, entry).cholesky()?;
+    });
+    let lower = matrix.cholesky()?;
     let diagonal = lower.l_dirty().diagonal();
     if diagonal.min() < DEPENDENT * diagonal.max() {
         return None;

@@ -14,8 +14,8 @@ const TRUTH: [f64; 2] = [0.33, 0.3];
 fn tests_of(speeds: [f64; 2], count: u32, scatter: f64, noise: &mut Noise) -> [Vec<f64>; 2] {
     let step = (speeds[1] - speeds[0]) / f64::from(count - 1);
     let all: Vec<f64> = (0..count).map(|i| speeds[0] + step * f64::from(i)).collect();
-    let slid = |v: &f64| coast_down(*v, TRUTH[0], TRUTH[1], 9.81).0;
-    let distances = all.iter().map(|v| slid(v) * (1.0 + noise.normal(scatter))).collect();
+    let slid = all.iter().map(|v| coast_down(*v, TRUTH[0], TRUTH[1], 9.81).0);
+    let distances = slid.map(|it| it * (1.0 + noise.normal(scatter))).collect();
     [all, distances]
 }
 
@@ -73,13 +73,17 @@ fn log_decrements_deviate_as_their_standard_errors_say() {
     }
     assert!(fewest >= 5, "{fewest}");
     for (i, name) in [Parameter::K1, Parameter::C].map(Parameter::symbol).iter().enumerate() {
-        let mean = |of: &[f64]| of.iter().sum::<f64>() / SEEDS as f64;
-        let size = |of: &[f64]| (of.iter().map(|it| it * it).sum::<f64>() / SEEDS as f64).sqrt();
         let (all, apart) = (&deviations[i], &apart[i]);
-        assert!(mean(all).abs() < 0.3, "{name}: {}", mean(all));
+        let mean = all.iter().sum::<f64>() / SEEDS as f64;
+        assert!(mean.abs() < 0.3, "{name}: {mean}");
         assert!((0.8..1.25).contains(&size(all)), "{name}: {}", size(all));
         assert!(size(apart) < 1.2, "{name}: {}", size(apart));
     }
+}
+
+/// The root mean square of what each seed gives.
+fn size(all: &[f64]) -> f64 {
+    (all.iter().map(|it| it * it).sum::<f64>() / SEEDS as f64).sqrt()
 }
 
 /// The recording of a simple test of the default rig.

@@ -46,8 +46,8 @@ impl Test {
             Test::Coasting => &[("v", Dimension::Velocity), ("d", Dimension::Length)],
             Test::Motor => &[("current", Dimension::Current), ("force", Dimension::Force)],
         };
-        let column = |&(name, dimension)| Column { name, dimension, presence: Required };
-        columns.iter().map(column).collect()
+        let all = columns.iter();
+        all.map(|&(name, dimension)| Column { name, dimension, presence: Required }).collect()
     }
 
     /// Rows that its recording must have.

@@ -11,11 +11,11 @@ fn told(test: Test, rows: &[[f64; 2]]) -> Result<Vec<Identified>, String> {
     let columns = test.columns();
     let header: Vec<String> =
         columns.iter().map(|it| format!("{} [{}]", it.name, it.dimension.unit())).collect();
-    let row = |row: &[f64; 2]| {
-        row[..columns.len()].iter().map(f64::to_string).collect::<Vec<_>>().join(",")
-    };
-    let rows: Vec<String> = rows.iter().map(row).collect();
-    let text = format!("{}\n{}\n", header.join(","), rows.join("\n"));
+    let mut text = header.join(",") + "\n";
+    for row in rows {
+        let cells: Vec<String> = row[..columns.len()].iter().map(f64::to_string).collect();
+        text += &(cells.join(",") + "\n");
+    }
     let recording = Recording::read("test.csv", &text, &columns, 2).expect("readable");
     identify(test, &recording, &GIVEN).map(|(all, _)| all)
 }
@@ -30,15 +30,21 @@ fn coasting_of(distance: impl Fn(f64) -> f64, speeds: &[f64]) -> Vec<[f64; 2]> {
     speeds.iter().map(|&v| [v, distance(v) * (1.0 + noise.normal(0.01))]).collect()
 }
 
+/// The distance from a speed at which friction has this coefficient all the time.
+fn slid(v: f64, mu: f64) -> f64 {
+    v * v / (2.0 * mu * 9.81)
+}
+
 #[test]
 fn of_two_modes_of_friction_neither_is_a_value() {
     let slow: Vec<f64> = (0..8).map(|i| 0.02 + 0.03 * f64::from(i) / 7.0).collect();
-    let stribeck = |v: f64| coast_down(v, 0.33, 0.3, 9.81).0;
-    let coulomb = |v: f64| v * v / (2.0 * 0.33 * 9.81);
     let wide = [0.05, 0.1, 0.2, 0.4, 0.8, 1.2];
     for (rows, limits) in [
-        (coasting_of(stribeck, &slow), ["v_s may be 0.00", " m/s or 0."]),
-        (coasting_of(coulomb, &wide), ["v_s may be below 0.0", " or above "]),
+        (
+            coasting_of(|v| coast_down(v, 0.33, 0.3, 9.81).0, &slow),
+            ["v_s may be 0.00", " m/s or 0."],
+        ),
+        (coasting_of(|v| slid(v, 0.33), &wide), ["v_s may be below 0.0", " or above "]),
     ] {
         let all = told(Test::Coasting, &rows).expect("told");
         for it in &all {
@@ -67,20 +73,20 @@ fn of_two_modes_of_friction_neither_is_a_value() {
 #[test]
 fn friction_that_the_law_cannot_describe_is_told() {
     let wide = [0.05, 0.1, 0.2, 0.4, 0.8, 1.2];
-    let rising = |v: f64| v * v / (2.0 * (0.3 + 0.2 * v) * 9.81);
-    let text = notes(&told(Test::Coasting, &coasting_of(rising, &wide)).expect("told"));
+    let rising = coasting_of(|v| slid(v, 0.3 + 0.2 * v), &wide);
+    let text = notes(&told(Test::Coasting, &rising).expect("told"));
     assert!(text.contains("friction rises with speed"), "{text}");
     // Friction that falls to a fifth, more than by the factor two of the law.
     let all: Vec<f64> = (0..14).map(|i| 0.05 * f64::from(i + 1)).collect();
-    let steep = |v: f64| v * v / (2.0 * 9.81 * (0.15 + 0.7 * (-v / 0.15).exp()));
-    let text = notes(&told(Test::Coasting, &coasting_of(steep, &all)).expect("told"));
+    let steep = coasting_of(|v| slid(v, 0.15 + 0.7 * (-v / 0.15).exp()), &all);
+    let text = notes(&told(Test::Coasting, &steep).expect("told"));
     assert!(text.contains("does not describe"), "{text}");
     // Distances that were read in millimetres as metres.
-    let short = |v: f64| 1e-3 * v * v / (2.0 * 0.33 * 9.81);
-    let text = notes(&told(Test::Coasting, &coasting_of(short, &wide)).expect("told"));
+    let short = coasting_of(|v| 1e-3 * slid(v, 0.33), &wide);
+    let text = notes(&told(Test::Coasting, &short).expect("told"));
     assert!(text.contains("is above 10: are the units"), "{text}");
-    let long = |v: f64| 1e3 * v * v / (2.0 * 0.33 * 9.81);
-    let text = notes(&told(Test::Coasting, &coasting_of(long, &wide)).expect("told"));
+    let long = coasting_of(|v| 1e3 * slid(v, 0.33), &wide);
+    let text = notes(&told(Test::Coasting, &long).expect("told"));
     assert!(text.contains("is below 0.001: are the units"), "{text}");
 }
 
@@ -89,12 +95,13 @@ fn loading_and_unloading_and_outliers_are_told() {
     let mut noise = Noise::new(8);
     let loads: Vec<f64> = (0..16).map(|i| 0.5 * f64::from(i)).collect();
     let both: Vec<f64> = loads.iter().chain(loads.iter().rev()).copied().collect();
-    let row = |i: usize, apart: f64, noise: &mut Noise| {
-        let unloading = if i >= loads.len() { apart } else { 0.0 };
-        [both[i], both[i] / 2420.0 + unloading + noise.normal(1e-5)]
-    };
-    let mut rows = |apart| (0..both.len()).map(|i| row(i, apart, &mut noise)).collect::<Vec<_>>();
-    let (plain, hysteretic) = (rows(0.0), rows(1e-4));
+    let [plain, hysteretic] = [0.0, 1e-4].map(|apart| {
+        let rows = both.iter().enumerate().map(|(i, load)| {
+            let unloading = if i >= loads.len() { apart } else { 0.0 };
+            [*load, load / 2420.0 + unloading + noise.normal(1e-5)]
+        });
+        rows.collect::<Vec<_>>()
+    });
     let text = notes(&told(Test::StaticForce, &plain).expect("told"));
     assert_eq!(text, "");
     let text = notes(&told(Test::StaticForce, &hysteretic).expect("told"));
@@ -106,25 +113,29 @@ fn loading_and_unloading_and_outliers_are_told() {
     assert_eq!(text.lines().count(), 1, "{text}");
 }
 
+/// The numbers from 0 to 7, each with a function of it.
+fn eight_rows(of: fn(f64) -> f64) -> Vec<[f64; 2]> {
+    (0..8).map(f64::from).map(|it| [it, of(it)]).collect()
+}
+
 #[test]
 fn recordings_without_scatter_are_told_and_do_not_panic() {
-    let currents =
-        |force: fn(f64) -> f64| (0..8).map(f64::from).map(|it| [it, force(it)]).collect::<Vec<_>>();
     for force in [2.0, 0.1, 0.0] {
         let rows: Vec<[f64; 2]> = (0..8).map(|i| [f64::from(i), force]).collect();
         let why = told(Test::Motor, &rows).expect_err("no constant");
         assert!(why.contains("all forces are equal"), "{why}");
     }
-    let exact = told(Test::Motor, &currents(|it| 5.0 * it)).expect("told");
+    let exact = told(Test::Motor, &eight_rows(|it| 5.0 * it)).expect("told");
     assert_eq!(exact[0].estimate.value, 5.0);
     assert_eq!(notes(&exact), "");
-    let reversed = notes(&told(Test::Motor, &currents(|it| -5.0 * it)).expect("told"));
+    let reversed = notes(&told(Test::Motor, &eight_rows(|it| -5.0 * it)).expect("told"));
     assert!(reversed.contains("opposite to the current"), "{reversed}");
-    let exact = told(Test::StaticForce, &currents(|it| it / 2420.0)).expect("told");
+    let exact = told(Test::StaticForce, &eight_rows(|it| it / 2420.0)).expect("told");
     assert_eq!(notes(&exact), "");
-    let rounded = |it: f64| (1e9 * it / 2420.0 + (7.0 * it).sin() * 0.1).round() / 1e9;
-    let rows: Vec<[f64; 2]> = (0..16).map(|i| [f64::from(i), rounded(f64::from(i))]).collect();
-    assert_eq!(notes(&told(Test::StaticForce, &rows).expect("told")), "");
+    let loads = (0..16).map(f64::from);
+    let rounded = loads.map(|it| [it, (1e9 * it / 2420.0 + (7.0 * it).sin() * 0.1).round() / 1e9]);
+    let rounded: Vec<[f64; 2]> = rounded.collect();
+    assert_eq!(notes(&told(Test::StaticForce, &rounded).expect("told")), "");
     let pulls = told(Test::Pull, &[[0.42, 0.0]; 5]).expect("told");
     let text = notes(&pulls);
     assert!(text.contains("half a step bounds the error"), "{text}");
@@ -155,8 +166,7 @@ fn two_methods_of_an_exact_decay_agree() {
 
 #[test]
 fn what_has_no_default_must_be_set_by_the_study() {
-    let load = |it: f64| [it, it / 2420.0 + 1e-6 * (7.0 * it).sin()];
-    let rows: Vec<[f64; 2]> = (0..8).map(|i| load(f64::from(i))).collect();
+    let rows = eight_rows(|it| it / 2420.0 + 1e-6 * (7.0 * it).sin());
     let mut all = told(Test::StaticForce, &rows).expect("told");
     assert!(parameter_file(&all, &[]).contains("\nk2 = \"24"));
     all[0].verdict = Verdict::LimitedBelow;

@@ -48,8 +48,7 @@ fn quantity(value: f64, dimension: Dimension) -> String {
 fn setting(it: &Identified) -> String {
     let Constant::Parameter(parameter) = it.constant else { return String::new() };
     let (symbol, verdict) = (parameter.symbol(), it.verdict);
-    let of = |value: f64| quantity(value, parameter.dimension());
-    let value = of(it.estimate.value);
+    let value = quantity(it.estimate.value, parameter.dimension());
     let unless = match OPEN.contains(&parameter) {
         true => format!("a study must set {symbol}"),
         false => {
@@ -73,13 +72,14 @@ fn setting(it: &Identified) -> String {
 /// The table that says how a constant was found.
 fn provenance(it: &Identified) -> String {
     let Identified { constant, estimate, verdict, method, source, .. } = it;
-    let of = |value: f64| quantity(value, constant.dimension());
-    let [least, greatest] = estimate.interval.map(of);
+    let dimension = constant.dimension();
+    let [least, greatest] = estimate.interval.map(|it| quantity(it, dimension));
     let mut text = format!("\n[identified.{}]\n", constant.symbol());
     if *verdict == Verdict::Determined {
-        text += &format!("value = {}\n", of(estimate.value));
+        text += &format!("value = {}\n", quantity(estimate.value, dimension));
         if estimate.standard_error.is_finite() {
-            text += &format!("standard_error = {}\n", of(estimate.standard_error));
+            let error = quantity(estimate.standard_error, dimension);
+            text += &format!("standard_error = {error}\n");
         }
     }
     if estimate.interval.iter().all(|it| it.is_finite()) {

@@ -28,6 +28,11 @@ const STUDIES: f64 = 1e-13;
 /// Differences that do not agree so closely with each other cannot tell 1e-6.
 const RESOLVED: f64 = 3e-7;
 
+/// A period as studies follow it.
+fn studies(period: u64) -> Cycles {
+    Cycles { count: period, tolerance: STUDIES }
+}
+
 /// The orbit near a section point, by Newton's method on the return map alone.
 fn closed(parameters: &Parameters, phase: f64, guess: [f64; 3], period: u64) -> [f64; 3] {
     let of = |it: Parameter| -> Dual<f64, 3> { Dual::constant(parameters[it]) };
@@ -68,7 +73,7 @@ fn compare<const N: usize>(wanted: [Output; N]) -> [usize; 2] {
         let free: Vec<Parameter> =
             Parameter::ALL.iter().copied().filter(|it| base[*it] != 0.0).collect();
         let relative = |parameter: Parameter| {
-            let found = sensitivity(&system, (&at, period), STUDIES, parameter);
+            let found = sensitivity(&system, &at, studies(period), parameter);
             let slopes = found.expect("an orbit goes on").slopes;
             wanted.map(|output| slopes[output] * base[parameter])
         };
@@ -126,7 +131,7 @@ fn derivatives_of_times_at_rest_and_distances_from_grazing_are_those_of_differen
 fn the_outputs_that_are_smooth_are_those_that_have_derivatives() {
     let Periodic { case, point, period } = periodic(10, 16, |_| ()).remove(0);
     let system = CapsuleSystem::<Filippov>::new(case.parameters, case.section_phase);
-    let found = sensitivity(&system, (&point, period), STUDIES, Parameter::Omega);
+    let found = sensitivity(&system, &point, studies(period), Parameter::Omega);
     let outputs = found.expect("an orbit goes on").outputs;
     for output in Output::ALL {
         assert_eq!(output.is_smooth(), !outputs[*output].is_nan(), "{}", output.name());

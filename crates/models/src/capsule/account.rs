@@ -59,6 +59,13 @@ impl<L: Lane> SideBySide for Impacts<L> {
     }
 }
 
+impl Impacts<f64> {
+    /// A number of each impact, in their order.
+    pub fn column(&self, of: impl Fn(&Impact<f64>) -> f64) -> Vec<f64> {
+        self.0.iter().map(|(_, impact)| of(impact)).collect()
+    }
+}
+
 /// Energies, summed since a start [J].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Energies<L> {
@@ -254,8 +261,10 @@ impl<L: Lane> Account<L> {
         let zero = L::splat(0.0);
         let all = L::Mask::splat(true);
         let end = h.plain();
-        let turns_of = |it: &Series<L>| Crossings::new(&series::plain(it), end, all);
-        let mut turns = [turns_of(cos), turns_of(y1)];
+        let mut turns = [
+            Crossings::new(&series::plain(cos), end, all),
+            Crossings::new(&series::plain(y1), end, all),
+        ];
         let mut next = [end; 2];
         for (turns, next) in turns.iter_mut().zip(&mut next) {
             *next = turns.next(all).time;
@@ -318,9 +327,9 @@ impl<L: Lane> Account<L> {
     #[inline(always)]
     fn meet_extremum(&mut self, here: L::Mask, r: L, is_maximum: L::Mask) {
         let margin = (self.of.delta - r).abs();
-        let least = |before: L, here| L::select(here, before.min(margin), before);
-        self.touching_margin = least(self.touching_margin, here);
-        self.grazing_margin = least(self.grazing_margin, here & is_maximum);
+        let [touching, grazing] = [self.touching_margin, self.grazing_margin];
+        self.touching_margin = L::select(here, touching.min(margin), touching);
+        self.grazing_margin = L::select(here & is_maximum, grazing.min(margin), grazing);
         self.meet_contact(here & is_maximum, r);
     }
 
@@ -332,28 +341,40 @@ impl<L: Lane> Account<L> {
 
     #[inline(always)]
     fn count<S: Locomotion<L>>(&mut self, system: &S, step: &Step<L, S>) {
-        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let zero = L::splat(0.0);
         if !zero.lt(step.event).any() {
             return;
         }
-        let is = |kind: EventKind| (step.event - kind.code()).abs().lt(L::splat(0.5));
-        let add = |count: L, here| count + L::select(here, one, zero);
-        let impacts = is(EventKind::ContactClosed);
+        let impacts = is_event(step.event, EventKind::ContactClosed);
         let kept = impacts & self.impacts.lt(L::splat(self.points as f64));
-        self.impacts = add(self.impacts, impacts);
+        self.impacts = one_more(self.impacts, impacts);
         if kept.any() {
             let State { y1, y2, .. } = system.at(&step.jet, step.length);
             let phase = self.of.omega * (step.start + step.length);
             self.impact_points.0.push((kept.bits(), Impact { phase, y1, y2 }));
         }
-        let reverses = is(EventKind::Reversal);
+        let reverses = is_event(step.event, EventKind::Reversal);
         let was_forward = zero.lt(system.direction(&step.mode));
-        self.reversals = add(self.reversals, reverses);
-        let forward = is(EventKind::SlipForward) | (reverses & !was_forward);
-        let backward = is(EventKind::SlipBackward) | (reverses & was_forward);
-        self.forward_slips = add(self.forward_slips, forward);
-        self.backward_slips = add(self.backward_slips, backward);
+        self.reversals = one_more(self.reversals, reverses);
+        let begins_forward = is_event(step.event, EventKind::SlipForward);
+        let begins_backward = is_event(step.event, EventKind::SlipBackward);
+        let forward = begins_forward | (reverses & !was_forward);
+        let backward = begins_backward | (reverses & was_forward);
+        self.forward_slips = one_more(self.forward_slips, forward);
+        self.backward_slips = one_more(self.backward_slips, backward);
     }
+}
+
+/// Where the event of this code is of a kind.
+#[inline(always)]
+fn is_event<L: Lane>(code: L, kind: EventKind) -> L::Mask {
+    (code - kind.code()).abs().lt(L::splat(0.5))
+}
+
+/// A count that is one more here.
+#[inline(always)]
+fn one_more<L: Lane>(count: L, here: L::Mask) -> L {
+    count + L::select(here, L::splat(1.0), L::splat(0.0))
 }
 
 impl<L: Lane, S: Locomotion<L>> Observer<L, S> for Account<L> {

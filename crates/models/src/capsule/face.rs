@@ -2,9 +2,10 @@
 
 use capsulemap_engine::flow::Step;
 use capsulemap_engine::lane::series;
+use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{OrbitOf, Outcome, Protocol};
 
-use super::account::{Account, Impact};
+use super::account::Account;
 use super::description::CAPSULE;
 use super::locomotion::Locomotion as _;
 use super::parameter::Parameter;
@@ -47,7 +48,8 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
     fn at_event(
         &self,
         single: &R::Single,
-        (ended, event): (&R::Mode<f64>, EventKind),
+        ended: &R::Mode<f64>,
+        event: EventKind,
         [before, _]: [State<f64>; 2],
     ) -> Vec<description::State> {
         let sliding = State { y2: single.direction(ended) * f64::MIN_POSITIVE, ..before };
@@ -72,14 +74,12 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
     }
 
     fn impacts(observed: &Account<f64>) -> Vec<Vec<f64>> {
-        let column = |value: fn(&Impact<f64>) -> f64| {
-            observed.impact_points.0.iter().map(|(_, it)| value(it)).collect()
-        };
+        let impacts = &observed.impact_points;
         vec![
-            column(|it| it.phase),
-            column(|it| it.y1),
-            column(|it| it.y2),
-            column(|it| it.y1 - it.y2),
+            impacts.column(|it| it.phase),
+            impacts.column(|it| it.y1),
+            impacts.column(|it| it.y2),
+            impacts.column(|it| it.y1 - it.y2),
         ]
     }
 
@@ -100,10 +100,10 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
 
     fn sensitivity(
         &self,
-        orbit: (&[f64; 3], u64),
-        tolerance: f64,
+        section: &[f64; 3],
+        cycles: Cycles,
         parameter: Parameter,
     ) -> Option<Sensitivity> {
-        sensitivity(self, orbit, tolerance, parameter)
+        sensitivity(self, section, cycles, parameter)
     }
 }

@@ -115,6 +115,34 @@ impl<L: Lane> Capsule<L> {
         }
         guard[0] = guard[0] + G::select(resting, of(self.drag.break_away), G::from_plain(zero));
     }
+
+    /// Closes or opens contact where `due`; returns the event there.
+    #[inline(always)]
+    fn switch_contact(
+        &self,
+        due: L::Mask,
+        mode: &mut Mode<L>,
+        state: &mut State<L>,
+        zeros: &mut Zeros<L>,
+    ) -> L {
+        let code = L::select(
+            mode.closed,
+            EventKind::ContactOpened.code(),
+            EventKind::ContactClosed.code(),
+        );
+        mode.closed = (mode.closed & !due) | (!mode.closed & due);
+        state.r = L::select(due, self.delta, state.r);
+        zeros[CONTACT] = L::select(due, L::splat(1.0), zeros[CONTACT]);
+        L::select(due, code, L::splat(0.0))
+    }
+}
+
+/// The sign of a number: -1, 0 or 1.
+#[inline(always)]
+fn direction<L: Lane>(x: L) -> L {
+    let zero = L::splat(0.0);
+    let forward = L::select(zero.lt(x), L::splat(1.0), zero);
+    L::select(x.lt(zero), L::splat(-1.0), forward)
 }
 
 impl<L: Lane> Switched<L> for Capsule<L> {
@@ -134,13 +162,9 @@ impl<L: Lane> Switched<L> for Capsule<L> {
         let zero = L::splat(0.0);
         let mut mode = Mode { closed: self.delta.lt(state.r), slip: zero };
         let force = self.force(&mode, state);
-        let toward = |x: L| {
-            let forward = L::select(zero.lt(x), L::splat(1.0), zero);
-            L::select(x.lt(zero), L::splat(-1.0), forward)
-        };
         let breaks_away = self.drag.break_away.lt(force.abs());
-        let from_rest = L::select(breaks_away, toward(force), zero);
-        mode.slip = L::select(state.y2.abs().le(zero), from_rest, toward(state.y2));
+        let from_rest = L::select(breaks_away, direction(force), zero);
+        mode.slip = L::select(state.y2.abs().le(zero), from_rest, direction(state.y2));
         let resting = (mode.slip * mode.slip).lt(L::splat(0.5));
         state.y2 = L::select(resting, zero, state.y2);
         mode
@@ -256,15 +280,7 @@ impl<L: Lane> Switched<L> for Capsule<L> {
     ) -> L {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         if which == CONTACT {
-            let code = L::select(
-                mode.closed,
-                EventKind::ContactOpened.code(),
-                EventKind::ContactClosed.code(),
-            );
-            mode.closed = (mode.closed & !due) | (!mode.closed & due);
-            state.r = L::select(due, self.delta, state.r);
-            zeros[CONTACT] = L::select(due, one, zeros[CONTACT]);
-            return L::select(due, code, zero);
+            return self.switch_contact(due, mode, state, zeros);
         }
         let side = if which == FORWARD { one } else { -one };
         let resting = (mode.slip * mode.slip).lt(L::splat(0.5));

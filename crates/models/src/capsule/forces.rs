@@ -20,9 +20,10 @@ impl Forces {
     /// The forces on a capsule with these parameters in a state, friction set-valued at rest as Filippov has it.
     pub fn of(parameters: &Parameters, state: &State<f64>) -> Forces {
         let State { r, y1, y2, .. } = *state;
-        let of = |parameter: Parameter| parameters[parameter];
-        let contact = of(Parameter::K2) * (r - of(Parameter::Delta)).max(0.0);
-        let of_mass = of(Parameter::K1) * r + of(Parameter::C) * (y1 - y2) + contact;
+        let [k1, c, k2, delta] =
+            [Parameter::K1, Parameter::C, Parameter::K2, Parameter::Delta].map(|it| parameters[it]);
+        let contact = k2 * (r - delta).max(0.0);
+        let of_mass = k1 * r + c * (y1 - y2) + contact;
         let friction = if y2 == 0.0 { of_mass } else { parameters.drag().force(y2.signum(), y2) };
         Forces { contact, of_mass, friction }
     }

@@ -26,9 +26,9 @@ fn no_effect(parameters: &Parameters, parameter: description::Parameter) -> Opti
 
 /// That static friction is too small to have an effect.
 fn remarks(parameters: &Parameters) -> Vec<Remark> {
-    let about = || [Parameter::MuS, Parameter::MuD].map(description::Parameter::from).to_vec();
+    let about = [Parameter::MuS, Parameter::MuD].map(description::Parameter::from).to_vec();
     let idle = parameters.idle_static_friction();
-    idle.map(|text| Remark { about: about(), text }).into_iter().collect()
+    idle.map(|text| Remark { about, text }).into_iter().collect()
 }
 
 /// Static friction has no effect below the friction at the onset of sliding, as rest ends where the force exceeds the larger of both. In
@@ -62,11 +62,10 @@ fn missing(
     given: description::rules::Which<'_>,
     on_axis: description::rules::Which<'_>,
 ) -> Option<NotGiven> {
-    let is_open = |it: &Parameter| {
-        let of_axis = other(*it).is_some_and(|other| on_axis(other.into()));
-        of_axis && !on_axis((*it).into()) && !given((*it).into())
-    };
-    let open = [Parameter::MuS, Parameter::MuD].into_iter().find(is_open)?;
+    let open = [Parameter::MuS, Parameter::MuD].into_iter().find(|&it| {
+        let of_axis = other(it).is_some_and(|other| on_axis(other.into()));
+        of_axis && !on_axis(it.into()) && !given(it.into())
+    })?;
     if parameters.resistance() != Resistance::Coulomb {
         return None;
     }

@@ -38,12 +38,9 @@ pub(super) fn add(
         return;
     }
     let of_batches = of_batches(orbit);
-    let error = |at: usize| {
-        let values: Vec<f64> = of_batches.iter().map(|sums| sums[at]).collect();
-        standard_error(&values)
-    };
     for (at, output) in ERRORS.into_iter().enumerate() {
-        outputs[output] = error(at);
+        let values: Vec<f64> = of_batches.iter().map(|sums| sums[at]).collect();
+        outputs[output] = standard_error(&values);
     }
     outputs[Output::ProgressionSpeedError] /= parameters.drive_period();
 }

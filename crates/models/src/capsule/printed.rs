@@ -10,7 +10,7 @@ use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, elementary, series, sid
 use super::drag::Drag;
 use super::drive::Drive;
 use super::locomotion::Locomotion;
-use super::regime::{CONTACT, PrintedMode, Regime, Rules, sign};
+use super::regime::{CONTACT, GuardTerms, MassForce, PrintedMode, Regime, Rules, sign};
 use super::resistance::Resistance;
 use super::state::{EventKind, Jet, State};
 use super::{CapsuleParameters as _, Parameter};
@@ -58,18 +58,23 @@ impl<L: Lane> PrintedCapsule<L> {
         L::select(closed, self.k1 + self.k2, self.k1)
     }
 
+    #[inline(always)]
+    fn mass_force(&self, closed: L::Mask) -> MassForce<L> {
+        let PrintedCapsule { k1, c, k2, delta, .. } = *self;
+        MassForce { k1, c, k2, delta, closed }
+    }
+
     /// The force of the mass on the capsule, F [N].
     #[inline(always)]
     fn force(&self, closed: L::Mask, state: &State<L>) -> L {
-        let contact = L::select(closed, self.k2 * (state.r - self.delta), L::splat(0.0));
-        self.k1 * state.r + contact + self.c * (state.y1 - state.y2)
+        self.mass_force(closed).at(state)
     }
 
     #[inline(always)]
     fn rules(&self, closed: L::Mask) -> Rules<'_, L> {
         let PrintedCapsule { c, m1, m2, drive, drag, .. } = self;
-        let stiffness = self.stiffness(closed);
-        Rules { drive, drag, stiffness, c: *c, m1: *m1, m2: *m2 }
+        let (force, stiffness) = (self.mass_force(closed), self.stiffness(closed));
+        Rules { drive, drag, force, stiffness, c: *c, m1: *m1, m2: *m2 }
     }
 
     /// The series where H is 0, 1, or the share that holds F at the limit, which follows from F' = 0.
@@ -160,14 +165,15 @@ impl<L: Lane> Switched<L> for PrintedCapsule<L> {
         let closed = self.delta.lt(state.r);
         let force = self.force(closed, state);
         let (side, slip) = (sign(force), sign(state.y2));
-        let mode = |regime, slip, side| PrintedMode::new(closed, regime, slip, side);
         let breaks = self.drag.at_onset.lt(force.abs());
-        let leaves = mode(Regime::Moving, side, side);
-        let at_rest = PrintedMode::select(breaks, leaves, mode(Regime::Held, zero, side));
+        let leaves = PrintedMode::new(closed, Regime::Moving, side, side);
+        let held = PrintedMode::new(closed, Regime::Held, zero, side);
+        let at_rest = PrintedMode::select(breaks, leaves, held);
         let rests = state.y2.abs().le(zero);
-        let moves = PrintedMode::select(rests, at_rest, mode(Regime::Moving, slip, side));
+        let slides = PrintedMode::new(closed, Regime::Moving, slip, side);
+        let moves = PrintedMode::select(rests, at_rest, slides);
         let freezes = force.abs().le(self.drag.static_limit);
-        PrintedMode::select(freezes, mode(Regime::Frozen, zero, zero), moves)
+        PrintedMode::select(freezes, PrintedMode::new(closed, Regime::Frozen, zero, zero), moves)
     }
 
     #[inline(always)]
@@ -214,36 +220,15 @@ impl<L: Lane> Switched<L> for PrintedCapsule<L> {
         guard: &mut Series<L>,
     ) {
         let PrintedJet { motion: Jet { r, y2, force, .. }, share } = jet;
-        let (zero, one) = (L::splat(0.0), L::splat(1.0));
         if which == CONTACT {
-            let side = L::select(mode.closed, one, -one);
+            let side = L::select(mode.closed, L::splat(1.0), L::splat(-1.0));
             for (term, r) in guard.iter_mut().zip(r) {
                 *term = side * *r;
             }
             guard[0] = side * (r[0] - self.delta);
             return;
         }
-        let [frozen, moving, held, creeping] =
-            [Regime::Frozen, Regime::Moving, Regime::Held, Regime::Creeping].map(|it| mode.is(it));
-        let (limit, onset) = (self.drag.static_limit, self.drag.at_onset);
-        let PrintedMode { slip, side, .. } = *mode;
-        // The guard is a constant and a factor times F, y2 or the share of H.
-        let none = L::Mask::splat(false);
-        let (of_force, of_share, factor, constant) = match which {
-            1 => {
-                let factor = L::select(moving, slip, L::select(held, side, one));
-                let factor = L::select(frozen, -one, factor);
-                let constant = L::select(frozen, limit, L::select(held, -limit, zero));
-                (frozen | held, creeping, factor, constant)
-            }
-            2 => {
-                let factor = L::select(moving, side, L::select(held, -side, -one));
-                let factor = L::select(frozen, one, factor);
-                let constant = L::select(moving, -limit, L::select(held, onset, one));
-                (frozen | held | moving, creeping, factor, L::select(frozen, limit, constant))
-            }
-            _ => (none, none, slip, zero),
-        };
+        let GuardTerms { of_force, of_share, factor, constant } = mode.guard(which, &self.drag);
         for (k, term) in guard.iter_mut().enumerate() {
             let other = L::select(of_share, share[k], y2[k]);
             *term = factor * L::select(of_force, force[k], other);
@@ -297,9 +282,7 @@ impl<L: Lane> Switched<L> for PrintedCapsule<L> {
             return L::select(due, code, zero);
         }
         let before = *mode;
-        let force = |state: &State<L>| self.force(before.closed, state);
-        let rules = self.rules(before.closed);
-        rules.switch_motion((which, due), mode, state, zeros, (time, force));
+        self.rules(before.closed).switch_motion(which, due, mode, state, zeros, time);
         // The event that a change to another regime amounts to.
         let (slid, slides) = (before.slip, mode.slip);
         let onset = L::select(

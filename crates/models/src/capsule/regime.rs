@@ -70,6 +70,63 @@ impl<L: Lane> PrintedMode<L> {
     }
 }
 
+/// A guard of the motion: a constant and a factor times F, the share of H or, elsewhere, y2.
+pub(super) struct GuardTerms<L: Lane> {
+    /// Where it is of F.
+    pub(super) of_force: L::Mask,
+    /// Where it is of the share of H.
+    pub(super) of_share: L::Mask,
+    pub(super) factor: L,
+    pub(super) constant: L,
+}
+
+impl<L: Lane> PrintedMode<L> {
+    /// Guard 1, 2 or 3 of each lane, see [`Regime`].
+    #[inline(always)]
+    pub(super) fn guard(&self, which: usize, drag: &Drag<L>) -> GuardTerms<L> {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let [frozen, moving, held, creeping] =
+            [Regime::Frozen, Regime::Moving, Regime::Held, Regime::Creeping].map(|it| self.is(it));
+        let (limit, onset) = (drag.static_limit, drag.at_onset);
+        let PrintedMode { slip, side, .. } = *self;
+        let none = L::Mask::splat(false);
+        let (of_force, of_share, factor, constant) = match which {
+            1 => {
+                let factor = L::select(moving, slip, L::select(held, side, one));
+                let factor = L::select(frozen, -one, factor);
+                let constant = L::select(frozen, limit, L::select(held, -limit, zero));
+                (frozen | held, creeping, factor, constant)
+            }
+            2 => {
+                let factor = L::select(moving, side, L::select(held, -side, -one));
+                let factor = L::select(frozen, one, factor);
+                let constant = L::select(moving, -limit, L::select(held, onset, one));
+                (frozen | held | moving, creeping, factor, L::select(frozen, limit, constant))
+            }
+            _ => (none, none, slip, zero),
+        };
+        GuardTerms { of_force, of_share, factor, constant }
+    }
+}
+
+/// The force of the mass on the capsule, F [N], by the spring, the damper and the stop while contact is as given.
+pub(super) struct MassForce<L: Lane> {
+    pub(super) k1: L,
+    pub(super) c: L,
+    pub(super) k2: L,
+    pub(super) delta: L,
+    pub(super) closed: L::Mask,
+}
+
+impl<L: Lane> MassForce<L> {
+    /// F in a state.
+    #[inline(always)]
+    pub(super) fn at(&self, state: &State<L>) -> L {
+        let contact = L::select(self.closed, self.k2 * (state.r - self.delta), L::splat(0.0));
+        self.k1 * state.r + contact + self.c * (state.y1 - state.y2)
+    }
+}
+
 /// A mode that follows another, and which of its guards start at zero.
 #[derive(Clone, Copy)]
 struct Next<L: Lane> {
@@ -96,9 +153,11 @@ impl<L: Lane> Next<L> {
 ///
 /// Its functions are called at events only. They are not inlined, as numbers with derivatives of derivatives
 /// make much code of them.
-pub(super) struct Rules<'a, L> {
+pub(super) struct Rules<'a, L: Lane> {
     pub(super) drive: &'a Drive<L>,
     pub(super) drag: &'a Drag<L>,
+    /// F while contact is as it is.
+    pub(super) force: MassForce<L>,
     pub(super) stiffness: L,
     pub(super) c: L,
     pub(super) m1: L,
@@ -133,16 +192,16 @@ impl<L: Lane> Rules<'_, L> {
         let friction = self.drag.force_term(slip, &decay, &y2, 0);
         let acceleration = (limit - friction) / self.m2;
         let moving_rate = frozen_rate - side * (self.stiffness * state.y2 + self.c * acceleration);
-        let mode = |regime, slip, side| PrintedMode::new(closed, regime, slip, side);
         let slides = PrintedMode::select(
             moving_rate.lt(zero),
-            mode(Regime::Creeping, slip, side),
-            mode(Regime::Moving, slip, side),
+            PrintedMode::new(closed, Regime::Creeping, slip, side),
+            PrintedMode::new(closed, Regime::Moving, slip, side),
         );
         let holds = rests & self.drag.static_limit.lt(self.drag.at_onset);
-        let leaves = PrintedMode::select(holds, mode(Regime::Held, zero, side), slides);
-        let freezes = frozen_rate.le(zero);
-        PrintedMode::select(freezes, mode(Regime::Frozen, zero, zero), leaves)
+        let held = PrintedMode::new(closed, Regime::Held, zero, side);
+        let leaves = PrintedMode::select(holds, held, slides);
+        let frozen = PrintedMode::new(closed, Regime::Frozen, zero, zero);
+        PrintedMode::select(frozen_rate.le(zero), frozen, leaves)
     }
 
     /// What follows where |F| = f_s is met at a first-order zero of its guard.
@@ -189,55 +248,31 @@ impl<L: Lane> Rules<'_, L> {
         zeros[CONTACT] = L::select(due, L::splat(1.0), zeros[CONTACT]);
     }
 
-    /// Obeys another guard where `due`; `force` tells F of a state in the mode.
+    /// Obeys another guard where `due`.
     pub(super) fn switch_motion(
         &self,
-        (which, due): (usize, L::Mask),
+        which: usize,
+        due: L::Mask,
         mode: &mut PrintedMode<L>,
         state: &mut State<L>,
         zeros: &mut Zeros<L>,
-        (time, force): (L, impl Fn(&State<L>) -> L),
+        time: L,
     ) {
         let zero = L::splat(0.0);
-        let none = [zero; 4];
         let before = *mode;
-        let PrintedMode { closed, slip, side, .. } = before;
-        let [frozen, moving, held, creeping] =
-            [Regime::Frozen, Regime::Moving, Regime::Held, Regime::Creeping]
-                .map(|it| due & before.is(it));
         let stops = match which {
-            1 => moving,
+            1 => due & before.is(Regime::Moving),
             2 => L::Mask::splat(false),
-            _ => creeping,
+            _ => due & before.is(Regime::Creeping),
         };
         state.y2 = L::select(stops, zero, state.y2);
-        let rests = at_rest(state);
-        let met_side = match which {
-            1 => L::select(frozen, L::splat(1.0), side),
-            _ => L::select(frozen, L::splat(-1.0), side),
-        };
-        let met = self.limit_met(closed, state, met_side, time);
-        let begins = |regime, slip, side| PrintedMode::new(closed, regime, slip, side);
-        let reached = |mode: PrintedMode<L>, power: f64| {
-            Next::new(mode, self.zeros_on_limit(&mode, side, rests, power))
-        };
-        let freezes = begins(Regime::Frozen, zero, zero);
-        let leaves = begins(Regime::Moving, side, side);
-        let from = |zeros: f64| [zero, L::splat(zeros), zero, zero];
+        let beyond = if which == 1 { L::splat(1.0) } else { L::splat(-1.0) };
+        let side = L::select(due & before.is(Regime::Frozen), beyond, before.side);
         // Frozen is left by what is met at the limit, and so is creeping whose speed has come to zero.
+        let met = self.limit_met(before.closed, state, side, time);
         let next = match which {
-            1 => {
-                let breaks = self.drag.at_onset.lt(force(state).abs());
-                let held_on = Next::new(begins(Regime::Held, zero, side), none);
-                let stopped = Next::select(breaks, Next::new(leaves, from(1.0)), held_on);
-                let next = Next::select(held, reached(freezes, 1.0), met);
-                let next = Next::select(creeping, reached(freezes, 2.0), next);
-                Next::select(moving, stopped, next)
-            }
-            2 => {
-                let next = Next::select(held, Next::new(leaves, from(2.0)), met);
-                Next::select(creeping, reached(begins(Regime::Moving, slip, side), 2.0), next)
-            }
+            1 => self.first_obeyed(&before, due, state, met),
+            2 => self.second_obeyed(&before, due, state, met),
             _ => met,
         };
         let contact = zeros[CONTACT];
@@ -247,6 +282,58 @@ impl<L: Lane> Rules<'_, L> {
         // A capsule that is pushed off y2 = 0 while frozen slides here instead, and the friction at the onset of sliding, which is
         // above |F|, brings it back to rest: so pushes along y2 end, and what it has moved by then is of second order.
         state.y2 = L::select(due & mode.is(Regime::Held), zero, state.y2);
+    }
+
+    /// What follows where guard 1 of the mode `before` has come to zero; `met` is what follows on the limit.
+    fn first_obeyed(
+        &self,
+        before: &PrintedMode<L>,
+        due: L::Mask,
+        state: &State<L>,
+        met: Next<L>,
+    ) -> Next<L> {
+        let zero = L::splat(0.0);
+        let PrintedMode { closed, side, .. } = *before;
+        let [moving, held, creeping] =
+            [Regime::Moving, Regime::Held, Regime::Creeping].map(|it| due & before.is(it));
+        let breaks = self.drag.at_onset.lt(self.force.at(state).abs());
+        let leaves = PrintedMode::new(closed, Regime::Moving, side, side);
+        let leaves = Next::new(leaves, [zero, L::splat(1.0), zero, zero]);
+        let holds = Next::new(PrintedMode::new(closed, Regime::Held, zero, side), [zero; 4]);
+        let stopped = Next::select(breaks, leaves, holds);
+        let freezes = PrintedMode::new(closed, Regime::Frozen, zero, zero);
+        let next = Next::select(held, self.reached(freezes, before, state, 1.0), met);
+        let next = Next::select(creeping, self.reached(freezes, before, state, 2.0), next);
+        Next::select(moving, stopped, next)
+    }
+
+    /// The same of guard 2.
+    fn second_obeyed(
+        &self,
+        before: &PrintedMode<L>,
+        due: L::Mask,
+        state: &State<L>,
+        met: Next<L>,
+    ) -> Next<L> {
+        let zero = L::splat(0.0);
+        let PrintedMode { closed, slip, side, .. } = *before;
+        let [held, creeping] = [Regime::Held, Regime::Creeping].map(|it| due & before.is(it));
+        let leaves = PrintedMode::new(closed, Regime::Moving, side, side);
+        let leaves = Next::new(leaves, [zero, L::splat(2.0), zero, zero]);
+        let slides = PrintedMode::new(closed, Regime::Moving, slip, side);
+        let next = Next::select(held, leaves, met);
+        Next::select(creeping, self.reached(slides, before, state, 2.0), next)
+    }
+
+    /// A mode that begins on the limit, on the side of the mode `before`.
+    fn reached(
+        &self,
+        mode: PrintedMode<L>,
+        before: &PrintedMode<L>,
+        state: &State<L>,
+        power: f64,
+    ) -> Next<L> {
+        Next::new(mode, self.zeros_on_limit(&mode, before.side, at_rest(state), power))
     }
 }
 

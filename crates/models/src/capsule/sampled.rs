@@ -78,15 +78,14 @@ impl Signal {
 
     /// Its value in the series of a step, `h` after its beginning.
     fn read<L: Lane>(self, jet: &Jet<L>, h: L, p_d: L) -> L {
-        let at = |it| series::value(it, h);
         match self {
-            Signal::X1 => at(&jet.r) + at(&jet.x2),
-            Signal::X2 => at(&jet.x2),
-            Signal::R => at(&jet.r),
-            Signal::Y1 => at(&jet.y1),
-            Signal::Y2 => at(&jet.y2),
+            Signal::X1 => series::value(&jet.r, h) + series::value(&jet.x2, h),
+            Signal::X2 => series::value(&jet.x2, h),
+            Signal::R => series::value(&jet.r, h),
+            Signal::Y1 => series::value(&jet.y1, h),
+            Signal::Y2 => series::value(&jet.y2, h),
             Signal::A1 => series::value_and_slope(&jet.y1, h).1,
-            Signal::Drive => p_d * at(&jet.cos),
+            Signal::Drive => p_d * series::value(&jet.cos, h),
         }
     }
 }
@@ -201,25 +200,33 @@ fn sampled_as<R: Reading>(
     let mut samples =
         Samples { values: Vec::new(), slopes: vec![vec![Vec::new(); times.len()]; signals.len()] };
     for some in directions.chunks(AT_ONCE) {
-        let of = |direction: Direction| -> Number {
-            let value = motion.value(direction);
-            match some.iter().position(|it| *it == direction) {
-                Some(place) => Dual::variable(value, place),
-                None => Dual::constant(value),
-            }
-        };
-        let values = followed::<R, Number>(motion, of, times, signals, tolerance)?;
+        let values = followed::<R, Number>(
+            motion,
+            |it| seeded(motion, it, some),
+            times,
+            signals,
+            tolerance,
+        )?;
         for (slopes, values) in samples.slopes.iter_mut().zip(&values) {
             for (slopes, value) in slopes.iter_mut().zip(values) {
                 slopes.extend(&value.gradient[..some.len()]);
             }
         }
         if samples.values.is_empty() {
-            let plain = |it: &Vec<Number>| it.iter().map(|value| value.value).collect();
-            samples.values = values.iter().map(plain).collect();
+            let plain = values.iter().map(|of| of.iter().map(|number| number.value).collect());
+            samples.values = plain.collect();
         }
     }
     Ok(samples)
+}
+
+/// The value of a motion in a direction, with the derivatives in some directions.
+fn seeded(motion: &Started, direction: Direction, some: &[Direction]) -> Number {
+    let value = motion.value(direction);
+    match some.iter().position(|it| *it == direction) {
+        Some(place) => Dual::variable(value, place),
+        None => Dual::constant(value),
+    }
 }
 
 /// The signals in numbers of one kind, by signal and time.
@@ -230,9 +237,8 @@ fn followed<R: Reading, L: Lane>(
     signals: &[Signal],
     tolerance: f64,
 ) -> Result<Vec<Vec<L>>, Reason> {
-    let parameter = |it: Parameter| of(Direction::Parameter(it));
     let law = motion.parameters.resistance();
-    let system = R::capsule::<L>(parameter, law, 0.0);
+    let system = R::capsule::<L>(|it| of(Direction::Parameter(it)), law, 0.0);
     let start = State {
         r: of(Direction::StartR),
         y1: of(Direction::StartY1),
@@ -241,11 +247,11 @@ fn followed<R: Reading, L: Lane>(
     };
     // The phase within a turn, with the derivative of the phase itself.
     let turns = L::splat(reduced(motion.phase) - motion.phase);
-    let begins = (of(Direction::StartPhase) + turns) / parameter(Parameter::Omega);
+    let begins = (of(Direction::StartPhase) + turns) / of(Direction::Parameter(Parameter::Omega));
     let mut sampler = Sampler {
         times,
         signals,
-        p_d: parameter(Parameter::Pd),
+        p_d: of(Direction::Parameter(Parameter::Pd)),
         began: -begins,
         values: vec![Vec::with_capacity(times.len()); signals.len()],
         next: 0,

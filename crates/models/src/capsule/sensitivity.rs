@@ -12,7 +12,7 @@ const DIRECTIONS: usize = 4;
 /// The place of the parameter among them.
 const FREE: usize = 3;
 
-/// The derivatives of the periodic orbit through `section`, of this `period` [cycles], in a parameter; none where the motion
+/// The derivatives of the periodic orbit through `section`, whose period is `cycles`, in a parameter; none where the motion
 /// cannot be followed, or where a multiplier is one, so that no orbit goes on there.
 ///
 /// # Method
@@ -31,27 +31,37 @@ const FREE: usize = 3;
 /// side that the orbit takes.
 pub fn sensitivity<R: Reading>(
     system: &CapsuleSystem<R>,
-    (section, period): (&[f64; 3], u64),
-    tolerance: f64,
+    section: &[f64; 3],
+    cycles: Cycles,
     parameter: Parameter,
 ) -> Option<Sensitivity> {
-    let of = |it: Parameter| -> Dual<f64, DIRECTIONS> {
-        let value = system.value(it);
-        if it == parameter { Dual::variable(value, FREE) } else { Dual::constant(value) }
-    };
-    let mut account = Account::new(of, 0);
-    let cycles = Cycles { count: period, tolerance };
-    let image = observed(&system.system(of), seeded(section), &cycles, &mut account).ok()?;
+    let of = Seeded { system, free: parameter };
+    let mut account = Account::new(|it| of.value(it), 0);
+    let lane = system.system(|it| of.value(it));
+    let image = observed(&lane, seeded(section), &cycles, &mut account).ok()?;
     let in_parameter = image.map(|it| -it.gradient[FREE]);
     let section_slope = solve(less_identity(&jacobian(&image)), in_parameter)?;
-    let outputs = per_cycle(&account, of, period as f64);
-    let total = |it: Dual<f64, DIRECTIONS>| {
+    let outputs = per_cycle(&account, |it| of.value(it), cycles.count as f64);
+    let slopes = outputs.map(|it| {
         let by_section = section_slope.iter().zip(it.gradient).map(|(slope, by)| slope * by);
         it.gradient[FREE] + by_section.sum::<f64>()
-    };
+    });
     Some(Sensitivity {
         outputs: outputs.map(|it| it.value).into(),
         section_slope: section_slope.into(),
-        slopes: outputs.map(total).into(),
+        slopes: slopes.into(),
     })
+}
+
+/// The parameters of a capsule, of which the derivatives in one are followed.
+struct Seeded<'s, R: Reading> {
+    system: &'s CapsuleSystem<R>,
+    free: Parameter,
+}
+
+impl<R: Reading> Seeded<'_, R> {
+    fn value(&self, parameter: Parameter) -> Dual<f64, DIRECTIONS> {
+        let value = self.system.value(parameter);
+        if parameter == self.free { Dual::variable(value, FREE) } else { Dual::constant(value) }
+    }
 }

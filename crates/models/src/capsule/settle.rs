@@ -58,11 +58,11 @@ pub fn settle_all(cases: &[Case], protocol: &Protocol, machine: Machine) -> Vec<
     let filippov = settle_read::<Filippov>(cases, Switching::Filippov, protocol, machine);
     let printed = settle_read::<AsPrinted>(cases, Switching::AsPrinted, protocol, machine);
     let (mut filippov, mut printed) = (filippov.into_iter(), printed.into_iter());
-    let next = |case: &Case| match case.parameters.switching() {
+    let orbits = cases.iter().map(|case| match case.parameters.switching() {
         Switching::Filippov => filippov.next(),
         Switching::AsPrinted => printed.next(),
-    };
-    cases.iter().map(next).map(|orbit| orbit.expect("every case is settled")).collect()
+    });
+    orbits.map(|orbit| orbit.expect("every case is settled")).collect()
 }
 
 /// A case of the capsule for the engine.

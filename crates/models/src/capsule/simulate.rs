@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use super::Failure;
-use super::account::{Account, Energies};
+use super::account::Energies;
 use super::parameters::CapsuleParameters as _;
 use super::resistance::Switching;
 use super::state::{EventKind, State};
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
 use crate::description::{self, Parameters};
-use crate::face::{AtEvent, AtSection, Followed, followed};
+use crate::face::{Followed, followed};
 use crate::motion::{Case, SimulationSize};
 
 /// State and sums at the end of a cycle.
@@ -81,13 +81,11 @@ fn simulate_as<R: Reading>(case: &Case, cycles: u64, tolerance: f64) -> Simulati
     let most = SimulationSize { cycles, events: usize::MAX };
     let Followed { section, events, failure } =
         followed::<CapsuleSystem<R>, 3>(case, most, tolerance);
-    let sample = |it: AtSection<State<f64>, Account<f64>>| {
+    let section = section.into_iter().map(|it| {
         let State { r, y1, x2, y2 } = it.state;
         let (energies, impacts) = (it.observed.energies, it.observed.impacts as u64);
         Sample { n: it.cycle, t: it.time, r, y1, x2, y2, energies, impacts }
-    };
-    let event =
-        |it: AtEvent<EventKind, State<f64>>| Event { t: it.time, kind: it.event, state: it.state };
-    let (samples, events) = (section.into_iter().map(sample), events.into_iter().map(event));
-    Simulation { section: samples.collect(), events: events.collect(), failure }
+    });
+    let events = events.into_iter().map(|it| Event { t: it.time, kind: it.event, state: it.state });
+    Simulation { section: section.collect(), events: events.collect(), failure }
 }

@@ -148,9 +148,10 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
 
     /// Amplitude of the velocity of the mass while nothing slips or touches [m/s].
     fn expected_size(&self) -> f64 {
-        let of = |parameter| self.parameters[parameter];
-        let omega = of(Parameter::Omega);
-        let spring = of(Parameter::K1) - of(Parameter::M1) * omega * omega;
-        of(Parameter::Pd) * omega / libm::hypot(spring, of(Parameter::C) * omega)
+        let [p_d, omega] = [Parameter::Pd, Parameter::Omega].map(|it| self.parameters[it]);
+        let [k1, m1, c] =
+            [Parameter::K1, Parameter::M1, Parameter::C].map(|it| self.parameters[it]);
+        let spring = k1 - m1 * omega * omega;
+        p_d * omega / libm::hypot(spring, c * omega)
     }
 }

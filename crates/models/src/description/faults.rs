@@ -88,15 +88,10 @@ impl Description {
         let outputs = outputs.into_iter().chain(roles.rest_share).chain(trade_off);
         let outputs =
             outputs.chain([roles.key_outputs, roles.event_counts].into_iter().flatten().copied());
-        let fault = |what: &str, place: usize, count: usize| {
-            (place >= count)
-                .then(|| format!("a role names {what} {place} of {count}, counted from 0"))
-        };
         let of_parameters =
-            parameters.filter_map(|it| fault("parameter", it, self.parameters.len()));
-        of_parameters
-            .chain(outputs.filter_map(|it| fault("output", it, self.outputs.len())))
-            .collect()
+            parameters.filter_map(|it| fault_of_role("parameter", it, self.parameters.len()));
+        let of_outputs = outputs.filter_map(|it| fault_of_role("output", it, self.outputs.len()));
+        of_parameters.chain(of_outputs).collect()
     }
 
     fn faults_of_signals(&'static self) -> Vec<String> {
@@ -135,4 +130,9 @@ impl Description {
             .extend(unknown.chain(panels).map(|name| format!("there is no signal called {name}")));
         faults
     }
+}
+
+/// What is wrong with the place that a role names among so many.
+fn fault_of_role(what: &str, place: usize, count: usize) -> Option<String> {
+    (place >= count).then(|| format!("a role names {what} {place} of {count}, counted from 0"))
 }

@@ -139,12 +139,12 @@ impl Signal {
 
     /// Its values along a motion, from what is kept of it.
     pub fn values(&self, parameters: &Parameters, histories: &[Vec<f64>]) -> Vec<f64> {
-        let model = parameters.model();
-        let states = || (0..histories[0].len()).map(|place| model.state_of(histories, place));
+        let (model, count) = (parameters.model(), histories.first().map_or(0, Vec::len));
+        let states = (0..count).map(|place| model.state_of(histories, place));
         match self.source {
             Source::Kept(place) => histories[place].clone(),
-            Source::State(value) => states().map(|state| value(&state)).collect(),
-            Source::Parameters(value) => states().map(|state| value(parameters, &state)).collect(),
+            Source::State(value) => states.map(|state| value(&state)).collect(),
+            Source::Parameters(value) => states.map(|state| value(parameters, &state)).collect(),
         }
     }
 }
@@ -172,8 +172,8 @@ impl Description {
 
     /// The signal that is the coordinate at a place among those of the state.
     pub fn signal_of_coordinate(&'static self, place: usize) -> Option<&'static Signal> {
-        let is_it = |it: &&Signal| matches!(it.source, Source::Kept(kept) if kept == place);
-        self.motion.signals.iter().find(is_it)
+        let mut signals = self.motion.signals.iter();
+        signals.find(|it| matches!(it.source, Source::Kept(kept) if kept == place))
     }
 
     /// The quantity by which the coordinate at a place is shown along a motion: that of histories, or of starts where none are kept.

@@ -38,6 +38,18 @@ pub struct Followed<M: System<D>, const D: usize> {
     pub failure: Option<orbit::Failure<M::State<f64>>>,
 }
 
+impl<M: System<D>, const D: usize> Followed<M, D> {
+    /// Adds the section that a motion is at, with what was observed of it.
+    fn add_section(&mut self, trajectory: &Trajectory<'_, M::Single, D>, observed: M::Observer) {
+        self.section.push(AtSection {
+            cycle: trajectory.progress.cycles,
+            time: trajectory.cycle_began(),
+            state: trajectory.state(),
+            observed,
+        });
+    }
+}
+
 /// Follows a case from its start to the first section, and for so many cycles from there, no further than to the last section
 /// before which it has no more events than `most` says.
 pub fn followed<M: Face<D>, const D: usize>(
@@ -50,34 +62,29 @@ pub fn followed<M: Face<D>, const D: usize>(
     let mut observer = system.observer(0);
     let mut trajectory = Trajectory::begun(&single, start, begins, tolerance);
     let mut followed = Followed { section: Vec::new(), events: Vec::new(), failure: None };
-    let Followed { section, events, failure } = &mut followed;
     loop {
         let began = trajectory.cycle_began();
         if trajectory.is_at_section() {
-            section.push(AtSection {
-                cycle: trajectory.progress.cycles,
-                time: began,
-                state: trajectory.state(),
-                observed: observer.clone(),
-            });
+            followed.add_section(&trajectory, observer.clone());
         }
-        if section.len() as u64 > most.cycles {
+        if followed.section.len() as u64 > most.cycles {
             break;
         }
-        let before = events.len();
+        let before = followed.events.len();
         let cycle = trajectory.cycle(|step| {
             observer.see(&single, step);
             if let Some(event) = M::Event::from_code(step.event) {
                 let state = single.at(&step.jet, step.length);
-                events.push(AtEvent { time: began + (step.start + step.length), event, state });
+                let time = began + (step.start + step.length);
+                followed.events.push(AtEvent { time, event, state });
             }
         });
         if let Err(why) = cycle {
-            *failure = Some(why);
+            followed.failure = Some(why);
             break;
         }
-        if events.len() > most.events {
-            events.truncate(before);
+        if followed.events.len() > most.events {
+            followed.events.truncate(before);
             break;
         }
     }

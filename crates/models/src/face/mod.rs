@@ -5,6 +5,7 @@ mod stretch;
 
 use capsulemap_engine::branch::{self, NotFollowed};
 use capsulemap_engine::flow::{Step, System};
+use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{self, Certificate, OrbitOf, Outcome, Protocol};
 
 use crate::description::{Description, Outputs, Parameter, Parameters, Section, State};
@@ -43,7 +44,8 @@ pub trait Face<const D: usize>: System<D> + 'static {
     fn at_event(
         &self,
         _: &Self::Single,
-        _ended: (&Self::Mode<f64>, Self::Event),
+        _ended: &Self::Mode<f64>,
+        _event: Self::Event,
         [before, after]: [Self::State<f64>; 2],
     ) -> Vec<State> {
         let mut states = vec![Self::told(&before), Self::told(&after)];
@@ -86,13 +88,13 @@ pub trait Face<const D: usize>: System<D> + 'static {
         Outputs::unknown(Self::description())
     }
 
-    /// The derivatives in a parameter of the periodic orbit through a section point, of this period [cycles].
+    /// The derivatives in a parameter of the periodic orbit through a section point, of so many cycles.
     ///
     /// Unless a model has it another way: no output is smooth.
     fn sensitivity(
         &self,
-        _orbit: (&[f64; D], u64),
-        _tolerance: f64,
+        _section: &[f64; D],
+        _cycles: Cycles,
         _parameter: Self::Parameter,
     ) -> Option<Sensitivity> {
         None
@@ -195,9 +197,11 @@ pub fn follow<M: Face<D>, const D: usize>(request: &Request) -> Result<Found, No
         tolerance: *tolerance,
     })?;
     let Protocol { recurrence, .. } = Protocol::with_tolerance(*tolerance);
-    let measured = |value: f64, orbit: Option<OrbitOf<M, D>>| match orbit {
-        Some(orbit) => system.with(M::which(*along), value).outputs(&orbit, recurrence),
-        None => Outputs::unknown(M::description()),
-    };
-    Ok(found.map(measured, Into::into))
+    Ok(found.map(
+        |value, orbit: Option<OrbitOf<M, D>>| match orbit {
+            Some(orbit) => system.with(M::which(*along), value).outputs(&orbit, recurrence),
+            None => Outputs::unknown(M::description()),
+        },
+        Into::into,
+    ))
 }

@@ -10,6 +10,44 @@ use crate::motion::{Case, Stretch};
 type Failure<M, const D: usize> =
     orbit::Failure<<M as capsulemap_engine::flow::System<D>>::State<f64>>;
 
+/// The next of some even times, cycle by cycle of a history.
+struct EvenTimes {
+    per_cycle: u32,
+    /// Length of a cycle [s].
+    period: f64,
+    /// When the cycle begins, since that of the drive [s].
+    begins: f64,
+    cycles: u32,
+    /// Which of the times of the cycle it is.
+    next: u32,
+}
+
+impl EvenTimes {
+    /// How long after the beginning of the cycle it is [s].
+    fn in_cycle(&self) -> f64 {
+        f64::from(self.next) * (self.period / f64::from(self.per_cycle))
+    }
+
+    /// How long after the section it is [s].
+    fn since_section(&self) -> f64 {
+        self.begins + self.in_cycle()
+    }
+
+    /// How long after the start of the history it is [s].
+    fn since_start(&self) -> f64 {
+        f64::from(self.cycles) * self.period + self.in_cycle()
+    }
+
+    fn advance(&mut self) {
+        self.next += 1;
+        if self.next == self.per_cycle {
+            self.next = 0;
+            self.begins += self.period;
+            self.cycles += 1;
+        }
+    }
+}
+
 /// The motion from the start of a case at even times, both ends included, each from its step's series, which is exact to
 /// `tolerance` too.
 ///
@@ -20,43 +58,35 @@ pub fn samples<M: Face<D>, const D: usize>(
     span: HistorySpan,
     tolerance: f64,
 ) -> Result<Stretch, Failure<M, D>> {
-    let orbit::Case { system, start, begins: first_begins } = engine_case::<M, D>(case);
+    let orbit::Case { system, start, begins } = engine_case::<M, D>(case);
     let single = system.single();
-    let period = single.period();
-    let between = period / f64::from(span.per_cycle);
-    let mut trajectory = Trajectory::begun(&single, start, first_begins, tolerance);
+    let (period, per_cycle) = (single.period(), span.per_cycle);
+    let mut trajectory = Trajectory::begun(&single, start, begins, tolerance);
     let mut stretch = Stretch::of(M::description());
-    // When a cycle of the history begins, since that of the drive.
-    let mut begins = first_begins;
     let ends_at_section = begins == 0.0;
     let wanted = span.samples() - usize::from(ends_at_section);
-    let (mut next, mut cycles) = (0, 0);
+    let mut times = EvenTimes { per_cycle, period, begins, cycles: 0, next: 0 };
     while stretch.times.len() < wanted {
         trajectory.cycle(|step| {
             let end = step.start + step.length;
             while stretch.times.len() < wanted {
-                let at = begins + f64::from(next) * between;
+                let at = times.since_section();
                 if at > end || at >= period {
                     return;
                 }
                 let h = (at - step.start).max(0.0);
-                let time = f64::from(cycles) * period + f64::from(next) * between;
                 let state = M::told(&single.at(&step.jet, h));
-                stretch.push(time, &state, &system.driven(&single, step, h));
-                next += 1;
-                if next == span.per_cycle {
-                    (next, begins, cycles) = (0, begins + period, cycles + 1);
-                }
+                stretch.push(times.since_start(), &state, &system.driven(&single, step, h));
+                times.advance();
             }
         })?;
-        begins -= period;
+        times.begins -= period;
     }
     if ends_at_section {
         // What depends on time alone is at the last section what it was at the first.
         let coordinates = M::description().coordinates.len();
         let driven: Vec<f64> = stretch.histories[coordinates..].iter().map(|it| it[0]).collect();
-        let time = f64::from(cycles) * period;
-        stretch.push(time, &M::told(&trajectory.state()), &driven);
+        stretch.push(times.since_start(), &M::told(&trajectory.state()), &driven);
     }
     Ok(stretch)
 }
@@ -104,7 +134,7 @@ impl<M: Face<D>, const D: usize> Following<'_, M, D> {
         let Some(Pending { time, before, mode, event, driven }) = self.pending.take() else {
             return;
         };
-        for state in self.system.at_event(self.single, (&mode, event), [before, after]) {
+        for state in self.system.at_event(self.single, &mode, event, [before, after]) {
             self.stretch.push(time, &state, &driven);
         }
     }

@@ -11,8 +11,8 @@ pub type Failure = orbit::Failure<State>;
 /// Why a case of a model may fail, with its names in files; under a drive it always comes back to its section.
 pub fn reasons(model: &Description) -> Vec<(Reason, &'static str)> {
     let always_returns = model.has_drive();
-    let is_reason = |(reason, _): &(Reason, _)| *reason != Reason::NoReturn || !always_returns;
-    Reason::NAMES.into_iter().filter(is_reason).collect()
+    let names = Reason::NAMES.into_iter();
+    names.filter(|(reason, _)| *reason != Reason::NoReturn || !always_returns).collect()
 }
 
 /// What a case settled to.

@@ -24,11 +24,12 @@ pub(super) fn settle<M: Face<D>, const D: usize>(
 ) -> Vec<Box<dyn Unfinished>> {
     let mut filled = Filled::<M, D> { queue, protocol, known, cases: BTreeMap::new() };
     let left = settle_side_by_side::<M, D>(instructions, protocol, &mut filled);
-    let part = |underway: Underway<M, D>| -> Box<dyn Unfinished> {
+    let mut unfinished: Vec<Box<dyn Unfinished>> = Vec::new();
+    for underway in left {
         let case = filled.taken(underway.number());
-        Box::new(Left::<M, D> { underway, case })
-    };
-    left.into_iter().map(part).collect()
+        unfinished.push(Box::new(Left::<M, D> { underway, case }));
+    }
+    unfinished
 }
 
 /// A queue with the cases of it that are in lanes, by their numbers.

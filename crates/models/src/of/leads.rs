@@ -6,7 +6,7 @@ use capsulemap_engine::attractor::{self, EdgeSearch, FinalMotion, Met, minimal_c
 use capsulemap_engine::flow::Stroboscopic;
 use capsulemap_engine::orbit::passage::OneByOne;
 use capsulemap_engine::orbit::{
-    self, KnownOrbits, Machine, OrbitOf, Outcome, Protocol, settle_all, settle_all_near,
+    self, KnownOrbits, Machine, Outcome, Protocol, settle_all, settle_all_near,
 };
 
 use crate::description::Section;
@@ -37,11 +37,9 @@ impl<M: Face<D>, const D: usize> LeadsOf<M, D> {
     ) -> Self {
         // Nothing but where a start leads is asked for.
         let protocol = Protocol { points: 0, impact_points: 0, history: None, ..*protocol };
-        let case = |(_, attractor): &(u32, Attractor<D>)| {
-            let point = attractor.points.first().filter(|_| attractor.outcome == Outcome::Periodic);
-            Some(orbit::Case::new(system.clone(), M::Single::state(*point?)))
-        };
-        let cases: Vec<_> = known.iter().filter_map(case).collect();
+        let periodic = known.iter().filter(|(_, it)| it.outcome == Outcome::Periodic);
+        let points = periodic.filter_map(|(_, it)| it.points.first());
+        let cases: Vec<_> = points.map(|point| case_at(&system, point)).collect();
         let orbits = settle_all(&cases, &protocol, machine);
         let instructions = machine.instructions_for(cases.len());
         let near = KnownOrbits::among(&system, orbits, instructions, protocol.tolerance);
@@ -50,26 +48,29 @@ impl<M: Face<D>, const D: usize> LeadsOf<M, D> {
 
     /// The attractors that some section points lead to.
     fn lead_to(&self, points: &[[f64; D]]) -> Vec<Option<u32>> {
-        let case =
-            |point: &[f64; D]| orbit::Case::new(self.system.clone(), M::Single::state(*point));
-        let cases: Vec<_> = points.iter().map(case).collect();
+        let cases: Vec<_> = points.iter().map(|point| case_at(&self.system, point)).collect();
         let settled = settle_all_near(&cases, &self.near, &self.protocol, self.machine);
-        let motion = |orbit: &OrbitOf<M, D>| FinalMotion::of(orbit, M::Single::point(&orbit.end));
-        settled.iter().map(|orbit| self.number_of(&motion(orbit))).collect()
+        let motions =
+            settled.iter().map(|orbit| FinalMotion::of(orbit, M::Single::point(&orbit.end)));
+        motions.map(|motion| self.number_of(&motion)).collect()
     }
 
     /// The attractor of a motion.
     fn number_of(&self, motion: &FinalMotion<[f64; D]>) -> Option<u32> {
         let found = Attractor::of(0, &self.system, motion, &self.protocol)?;
         let metric = self.system.metric();
-        let is = |known: &Attractor<D>| match found.outcome {
+        let mut all = self.known.iter().filter(|(_, known)| match found.outcome {
             Outcome::Periodic => known.is(&found, &metric),
             kind => known.outcome == kind,
-        };
-        let mut all = self.known.iter().filter(|(_, known)| is(known));
+        });
         let (number, _) = all.next()?;
         all.next().is_none().then_some(*number)
     }
+}
+
+/// A case that begins at a point of the section.
+fn case_at<M: Face<D>, const D: usize>(system: &M, point: &[f64; D]) -> orbit::Case<M, D> {
+    orbit::Case::new(system.clone(), M::Single::state(*point))
 }
 
 impl<M: Face<D>, const D: usize> Leads for LeadsOf<M, D> {
@@ -93,12 +94,11 @@ impl<M: Face<D>, const D: usize> Leads for LeadsOf<M, D> {
     }
 
     fn shock(&self, number: u32, points: &[Section], towards: &Section) -> Option<f64> {
-        let elsewhere = |points: &[[f64; D]]| {
+        let (points, metric) = (super::arrays(points), self.system.metric());
+        let found = minimal_critical_shock(&points, towards.array(), &metric, &|points| {
             let leads = self.lead_to(points).into_iter();
             leads.map(|it| it.is_some_and(|other| other != number)).collect()
-        };
-        let (points, metric) = (super::arrays(points), self.system.metric());
-        let found = minimal_critical_shock(&points, towards.array(), &metric, &elsewhere)?;
+        })?;
         Some(found.size)
     }
 }

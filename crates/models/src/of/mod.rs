@@ -3,6 +3,7 @@
 mod filled;
 mod leads;
 mod registry;
+mod stable;
 
 use std::fmt::{self, Debug, Formatter};
 use std::iter;
@@ -12,12 +13,10 @@ use std::sync::Arc;
 use capsulemap_engine::attractor::{
     self, Attractor, Bridge, Executor, FinalMotion, Links, Table, linear_orbits,
 };
-use capsulemap_engine::branch::{self, Linearised, NotFollowed, Segment, cyclic};
-use capsulemap_engine::flow::{Event as _, System};
+use capsulemap_engine::branch::{self, Linearised, NotFollowed, Segment};
+use capsulemap_engine::flow::System;
 use capsulemap_engine::lane::Instructions;
-use capsulemap_engine::orbit::matrix::eigenvalues;
-use capsulemap_engine::orbit::newton::close;
-use capsulemap_engine::orbit::passage::{Integrator, OneByOne, ReturnRequest, image};
+use capsulemap_engine::orbit::passage::{Integrator, OneByOne};
 use capsulemap_engine::orbit::return_map::{Cycles, append_points, observed};
 use capsulemap_engine::orbit::{Batch, KnownOrbits, Machine, Protocol, Underway, settle_all};
 
@@ -36,12 +35,6 @@ use crate::motion::{
 pub use registry::{
     NotRegistered, all_models, default_model, model_called, model_of, register, settle_case,
 };
-
-/// An orbit closes to this residual, relative to the motion; a larger one is seen in the outputs.
-const EXACT: f64 = 1e-11;
-/// How often Newton's method is begun again from the image of the point where it has ended, as beside a kink of the return
-/// map it may end early.
-const AGAIN: usize = 4;
 
 /// A system with a face, as a model.
 pub struct Of<M, const D: usize>(PhantomData<fn() -> M>);
@@ -230,11 +223,11 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
         between: &(dyn Fn(usize) -> Option<Neighbours> + Sync),
         executor: &dyn Executor,
     ) -> Vec<Bridge<Section>> {
-        let between = |at: usize| between(at).map(neighbours::<M, D>);
         let cells: Vec<_> = cells.iter().map(|cell| table_of(cell)).collect();
         let links: Vec<Links<[f64; D]>> =
             links.iter().map(|it| it.clone().map(|point| point.array())).collect();
-        let bridges = attractor::bridges(&cells, &links, between, executor);
+        let bridges =
+            attractor::bridges(&cells, &links, |at| between(at).map(neighbours::<M, D>), executor);
         bridges.into_iter().map(|it| it.map(Into::into)).collect()
     }
 
@@ -279,42 +272,8 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
         period: u64,
         tolerance: f64,
     ) -> Option<StableOrbit> {
-        let system = system::<M, D>(setting);
-        let guess = &guess.array();
-        let metric = system.metric();
         let cycles = Cycles { count: period, tolerance };
-        let size = metric.size(guess).max(system.expected_size());
-        let image_of = |point: &[f64; D]| image(&OneByOne, &system, point, &cycles);
-        let closed_near =
-            |guess: &[f64; D]| close(image_of, period, &metric, guess, size).ok().flatten();
-        let mut closed = closed_near(guess)?;
-        for _ in 0..AGAIN {
-            if closed.residual <= EXACT {
-                break;
-            }
-            closed = closed_near(&image_of(&closed.point).ok()?.end)?;
-        }
-        let multipliers = eigenvalues(&closed.jacobian);
-        let is_stable = multipliers[0].abs() < 1.0;
-        if closed.residual > EXACT || !is_stable {
-            return None;
-        }
-        let section = closed.point;
-        let passed = OneByOne.passage(ReturnRequest {
-            system,
-            along: None,
-            point: section,
-            units: [1.0; D],
-            cycles,
-            watched: true,
-        });
-        let events = cyclic(&passed.ok()?.events);
-        Some(StableOrbit {
-            section: section.into(),
-            multipliers: multipliers.to_vec(),
-            impacts: events.iter().filter(|event| event.is_impact()).count(),
-            events: events.iter().map(|event| event.number()).collect(),
-        })
+        stable::orbit::<M, D>(system(setting), &guess.array(), cycles)
     }
 
     fn sensitivity(
@@ -325,8 +284,8 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
         tolerance: f64,
         parameter: Parameter,
     ) -> Option<Sensitivity> {
-        let orbit = (&section.array(), period);
-        system::<M, D>(setting).sensitivity(orbit, tolerance, M::which(parameter))
+        let cycles = Cycles { count: period, tolerance };
+        system::<M, D>(setting).sensitivity(&section.array(), cycles, M::which(parameter))
     }
 
     fn follow(&self, request: &Request) -> Result<Found, NotFollowed> {
@@ -349,12 +308,13 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
         let cycles = Cycles { count: batches.cycles, tolerance };
         let system = system::<M, D>(setting);
         let mut point = from.array();
-        let batch = |_| {
+        let mut outputs = Vec::new();
+        for _ in 0..batches.count {
             let mut observer = system.observer(0);
             point = observed(&system.single(), point, &cycles, &mut observer).ok()?;
-            Some(system.per_cycle(&observer, cycles.count as f64))
-        };
-        (0..batches.count).map(batch).collect()
+            outputs.push(system.per_cycle(&observer, cycles.count as f64));
+        }
+        Some(outputs)
     }
 }
 

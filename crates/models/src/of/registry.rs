@@ -50,8 +50,8 @@ pub fn register(model: &'static dyn Model) -> Result<(), NotRegistered> {
         return Err(NotRegistered::Unfit(description.name, faults));
     }
     let mut others = OTHERS.write().unwrap_or_else(PoisonError::into_inner);
-    let is_taken = |it: &&dyn Model| it.description().name == description.name;
-    if description.name == CAPSULE.name || others.iter().any(is_taken) {
+    let mut names = others.iter().map(|it| it.description().name).chain([CAPSULE.name]);
+    if names.any(|name| name == description.name) {
         return Err(NotRegistered::NameTaken(description.name));
     }
     others.push(model);

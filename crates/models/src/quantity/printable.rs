@@ -25,14 +25,17 @@ pub fn one_line(text: &str) -> Cow<'_, str> {
     if !text.contains(is_obeyed) {
         return Cow::Borrowed(text);
     }
-    let shown = |c: char| match c {
+    Cow::Owned(text.chars().map(escaped).collect())
+}
+
+fn escaped(c: char) -> String {
+    match c {
         '\n' => "\\n".to_owned(),
         '\r' => "\\r".to_owned(),
         '\t' => "\\t".to_owned(),
         c if is_obeyed(c) => numbered(c),
         c => c.to_string(),
-    };
-    Cow::Owned(text.chars().map(shown).collect())
+    }
 }
 
 /// The same of its first characters, for a text that may be long.

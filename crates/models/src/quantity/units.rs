@@ -91,20 +91,20 @@ pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
 
 /// As [`parse_quantity`], but in a unit of another size than that of SI, which is read without rounding.
 pub fn parse_in(text: &str, dimension: Dimension, unit_size: f64) -> Result<f64, String> {
-    let (number, unit) = split(text);
+    let (number, its_unit) = split(text);
     let expected = expectation(dimension);
     let Ok(value) = number.parse::<f64>() else {
         return Err(format!("\"{text}\" does not begin with a number; expected {expected}"));
     };
-    let unit = plain(unit);
-    let size_in = |dimension| self::unit(&unit, dimension).map(|it| it.1);
-    if let Some(size) = size_in(dimension) {
+    let its_unit = plain(its_unit);
+    if let Some((_, size)) = unit(&its_unit, dimension) {
         return Ok(value * (size / unit_size));
     }
-    let found = match Dimension::ALL.into_iter().find(|&other| size_in(other).is_some()) {
-        Some(Dimension::Number) if unit.is_empty() => "has no unit".to_owned(),
+    let mut dimensions = Dimension::ALL.into_iter();
+    let found = match dimensions.find(|&other| unit(&its_unit, other).is_some()) {
+        Some(Dimension::Number) if its_unit.is_empty() => "has no unit".to_owned(),
         Some(other) => format!("is {}", name(other)),
-        None => format!("has the unknown unit \"{unit}\""),
+        None => format!("has the unknown unit \"{its_unit}\""),
     };
     Err(format!("\"{text}\" {found}; expected {expected}"))
 }
