@@ -72,9 +72,9 @@ fn cross<M: System<D>, const D: usize>(
         special.extend(found.special);
         let metric = along.metric(here.value);
         let next = &cells[at + 1].attractors;
-        let is_new = |place: usize| links[at].pairs.iter().all(|pair| pair[1] != place);
         if let Some(place) = next.iter().position(|it| is_reached(&here, it, &metric, &protocol)) {
-            return is_new(place).then_some(Bridge { from, to: [at + 1, place], special });
+            let is_new = links[at].pairs.iter().all(|pair| pair[1] != place);
+            return is_new.then_some(Bridge { from, to: [at + 1, place], special });
         }
         if !here.is_stable() {
             return None;

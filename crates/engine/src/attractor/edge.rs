@@ -110,10 +110,10 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
                 return self.met(closed);
             }
             let metric = self.system.metric();
-            let is_near = |pair: &&[[f64; D]; 2]| {
+            let near = trail.iter().take_while(|pair| {
                 metric.distance(&pair[0], &pair[1]) <= NEAR * metric.largest(&pair[..])
-            };
-            let near = trail.iter().take_while(is_near).count();
+            });
+            let near = near.count();
             if near < 2 {
                 return None;
             }
@@ -134,11 +134,11 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
     fn together(&self, mut ends: [[f64; D]; 2], first: u32) -> [[f64; D]; 2] {
         let metric = self.system.metric();
         while metric.distance(&ends[0], &ends[1]) > CLOSEST * metric.largest(&ends) {
-            let part = |number: usize| -> [f64; D] {
-                let share = number as f64 / PARTS as f64;
+            let shares = (1..PARTS).map(|number| number as f64 / PARTS as f64);
+            let inner = shares.map(|share| -> [f64; D] {
                 std::array::from_fn(|i| ends[0][i] + share * (ends[1][i] - ends[0][i]))
-            };
-            let inner: Vec<[f64; D]> = (1..PARTS).map(part).collect();
+            });
+            let inner: Vec<[f64; D]> = inner.collect();
             let leads = (self.leads)(&inner);
             let other = leads.iter().position(|it| *it != Some(first)).unwrap_or(inner.len());
             let before = if other > 0 { inner[other - 1] } else { ends[0] };
@@ -192,8 +192,14 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
     fn close(&self, point: [f64; D], period: usize, size: f64) -> Option<Saddled<D>> {
         let metric = self.system.metric();
         let cycles = Cycles { count: period as u64, tolerance: self.protocol.tolerance };
-        let image_of = |at: &[f64; D]| image(self.integrator, self.system, at, &cycles);
-        let closed = close(image_of, period as u64, &metric, &point, size).ok()??;
+        let closed = close(
+            |at| image(self.integrator, self.system, at, &cycles),
+            period as u64,
+            &metric,
+            &point,
+            size,
+        );
+        let closed = closed.ok()??;
         let multipliers = eigenvalues(&closed.jacobian);
         let beyond = multipliers.iter().filter(|it| it.abs() > 1.0).count();
         if closed.residual > closes(self.protocol.recurrence) || beyond != 1 {
@@ -205,9 +211,9 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
             let last = points[points.len() - 1];
             points.push(returned(&self.system.single(), last, &once, |_| ()).ok()?);
         }
-        let key = |place: &usize| metric.rounded(&points[*place], LEAST * metric.largest(&points));
-        let least = (0..period).min_by_key(key).unwrap_or(0);
-        points.rotate_left(least);
+        let unit = LEAST * metric.largest(&points);
+        let least = (0..period).min_by_key(|place| metric.rounded(&points[*place], unit));
+        points.rotate_left(least.unwrap_or(0));
         let along = self.unstable(&closed.jacobian).map(|it| it * PUSH * size);
         let pushes =
             [1.0, -1.0].map(|side| std::array::from_fn(|i| closed.point[i] + side * along[i]));

@@ -74,8 +74,10 @@ impl<const D: usize> Attractor<[f64; D]> {
     /// The place of the section point of a periodic orbit whose first coordinate is least, by the second and third where
     /// points agree to a millionth of the size.
     pub fn least_point(&self, metric: &Metric<D>) -> usize {
-        let key = |place: &usize| metric.rounded(&self.points[*place], LEAST * self.size);
-        (0..self.points.len()).min_by_key(key).unwrap_or(0)
+        let places = 0..self.points.len();
+        let least =
+            places.min_by_key(|place| metric.rounded(&self.points[*place], LEAST * self.size));
+        least.unwrap_or(0)
     }
 
     /// How often it is compared with another, each time by more points; once where it repeats.
@@ -145,8 +147,8 @@ pub fn coincide<const D: usize>(
     metric: &Metric<D>,
 ) -> bool {
     let k = a.len();
-    let near = |shift: usize, i: usize| metric.distance(&a[i], &b[(i + shift) % k]) <= bound;
-    k == b.len() && (0..k).any(|shift| (0..k).all(|i| near(shift, i)))
+    k == b.len()
+        && (0..k).any(|shift| (0..k).all(|i| metric.distance(&a[i], &b[(i + shift) % k]) <= bound))
 }
 
 /// The share of points, of both samples, whose nearest neighbour is of their own sample.
@@ -157,21 +159,38 @@ fn own_neighbours<const D: usize>(a: &[[f64; D]], b: &[[f64; D]], metric: &Metri
     let mut sorted: Vec<(bool, &[f64; D])> =
         a.iter().map(|it| (true, it)).chain(b.iter().map(|it| (false, it))).collect();
     sorted.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
-    let has_own = |place: &usize| {
-        let (own, point) = sorted[*place];
-        let (mut nearest, mut is_own) = (f64::INFINITY, false);
-        let mut meet = |(sample, other): &(bool, &[f64; D])| {
-            let distance = metric.distance(point, other);
-            if distance < nearest || (distance == nearest && *sample != own) {
-                (nearest, is_own) = (distance, *sample == own);
-            }
-            metric.scales[0] * (point[0] - other[0]).abs() <= nearest
-        };
-        sorted[place + 1..].iter().all(&mut meet);
-        sorted[..*place].iter().rev().all(&mut meet);
-        is_own
-    };
-    (0..sorted.len()).filter(has_own).count() as f64 / sorted.len() as f64
+    let own = (0..sorted.len()).filter(|&place| {
+        let mut nearest =
+            Nearest { of: sorted[place], metric, distance: f64::INFINITY, is_own: false };
+        sorted[place + 1..].iter().all(|other| nearest.meet(*other));
+        sorted[..place].iter().rev().all(|other| nearest.meet(*other));
+        nearest.is_own
+    });
+    own.count() as f64 / sorted.len() as f64
+}
+
+/// A point with the sample that it is of.
+type Sampled<'a, const D: usize> = (bool, &'a [f64; D]);
+
+/// The nearest neighbour of a point among those that it has met.
+struct Nearest<'a, const D: usize> {
+    of: Sampled<'a, D>,
+    metric: &'a Metric<D>,
+    distance: f64,
+    /// Whether it is of the same sample; of two as near it is the one of the other sample.
+    is_own: bool,
+}
+
+impl<'a, const D: usize> Nearest<'a, D> {
+    /// Meets another point; whether one that has its first coordinate may be nearer.
+    fn meet(&mut self, other: Sampled<'a, D>) -> bool {
+        let ((own, point), (sample, other)) = (self.of, other);
+        let distance = self.metric.distance(point, other);
+        if distance < self.distance || (distance == self.distance && sample != own) {
+            (self.distance, self.is_own) = (distance, sample == own);
+        }
+        self.metric.scales[0] * (point[0] - other[0]).abs() <= self.distance
+    }
 }
 
 #[cfg(test)]

@@ -20,11 +20,14 @@ pub struct Integrity {
 /// Huttenlocher 2012), and from the ends of the grid, beyond which nothing is known.
 /// Starts that have not been computed lead elsewhere.
 pub fn integrity(axes: &[Vec<f64>], label: impl Fn(usize) -> Label, number: u32) -> Integrity {
-    let own = |start: usize| label(start) == Label::Attractor(number);
-    let largest_gap =
-        |axis: &Vec<f64>| axis.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
-    let error = axes.iter().map(largest_gap).map(|gap| gap * gap).sum::<f64>().sqrt();
-    Integrity { factor: largest_ball(axes, own), error }
+    let gaps = axes.iter().map(|axis| largest_gap(axis));
+    let error = gaps.map(|gap| gap * gap).sum::<f64>().sqrt();
+    let factor = largest_ball(axes, |start| label(start) == Label::Attractor(number));
+    Integrity { factor, error }
+}
+
+fn largest_gap(axis: &[f64]) -> f64 {
+    axis.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max)
 }
 
 fn largest_ball(axes: &[Vec<f64>], own: impl Fn(usize) -> bool) -> f64 {
@@ -45,22 +48,24 @@ fn largest_ball(axes: &[Vec<f64>], own: impl Fn(usize) -> bool) -> f64 {
             }
         }
     }
-    let ends_of = |axis: &Vec<f64>| match axis.len() {
-        // An axis of one start has no extent.
-        1 => [f64::NEG_INFINITY, f64::INFINITY],
-        _ => [f64::min, f64::max].map(|it| axis.iter().copied().fold(axis[0], it)),
-    };
-    let ends: Vec<[f64; 2]> = axes.iter().map(ends_of).collect();
+    let ends: Vec<[f64; 2]> = axes.iter().map(|axis| ends_of(axis)).collect();
     let mut largest: f64 = 0.0;
     each_start(axes, |start, at| {
-        let to_end = |(x, ends): (&f64, &[f64; 2])| ends.map(|end| (x - end).abs());
-        let ends = at.iter().zip(&ends).flat_map(to_end).fold(f64::INFINITY, f64::min);
-        let radius = squares[start].sqrt().min(ends);
+        let to_ends = at.iter().zip(&ends).flat_map(|(x, ends)| ends.map(|end| (x - end).abs()));
+        let radius = squares[start].sqrt().min(to_ends.fold(f64::INFINITY, f64::min));
         if radius.is_finite() {
             largest = largest.max(radius);
         }
     });
     largest
+}
+
+fn ends_of(axis: &[f64]) -> [f64; 2] {
+    match axis.len() {
+        // An axis of one start has no extent.
+        1 => [f64::NEG_INFINITY, f64::INFINITY],
+        _ => [f64::min, f64::max].map(|it| axis.iter().copied().fold(axis[0], it)),
+    }
 }
 
 /// Replaces the numbers f at the rising positions x of a line by the least of f(q) + (x - x(q))^2 over the line, as the lower envelope of

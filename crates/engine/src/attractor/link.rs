@@ -115,7 +115,7 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         }
         for (side, place) in periodic {
             if !links.has(side, place)
-                && !self.continued(integrator, (side, place), &mut links, &mut apart)
+                && !self.continued(integrator, side, place, &mut links, &mut apart)
             {
                 lost.push((side, place));
             }
@@ -140,18 +140,19 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         linear: [&LinearOrbits<M, D>; 2],
     ) -> Option<usize> {
         let from = linear[side].get(place)?.as_ref()?;
-        let is_next = |(place, other): &(usize, &Option<Linearised<M::Event, D>>)| {
-            let leads = |to: &Linearised<M::Event, D>| leads_to(&self.along, from, to);
-            !links.has(1 - side, *place) && other.as_ref().is_some_and(leads)
-        };
-        linear[1 - side].iter().enumerate().find(is_next).map(|(place, _)| place)
+        let others = linear[1 - side].iter().enumerate();
+        let mut unlinked = others.filter(|(place, _)| !links.has(1 - side, *place));
+        let next = unlinked
+            .find(|(_, other)| other.as_ref().is_some_and(|to| leads_to(&self.along, from, to)));
+        next.map(|(place, _)| place)
     }
 
     /// Continues a periodic attractor to the other cell and notes its special points; whether it is known how it goes on.
     fn continued(
         &self,
         integrator: &dyn Integrator<M, D>,
-        (side, place): (usize, usize),
+        side: usize,
+        place: usize,
         links: &mut Links<[f64; D]>,
         apart: &mut Apart,
     ) -> bool {
@@ -231,11 +232,11 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         orbit: &PeriodicOrbit<[f64; D]>,
     ) -> Option<usize> {
         let metric = self.along.metric(orbit.value);
-        let is_next = |(place, other): &(usize, &Attractor<[f64; D]>)| {
-            !links.has(1 - side, *place) && is_reached(orbit, other, &metric, &self.protocol)
-        };
         let mut others = self.cells[1 - side].attractors.iter().enumerate();
-        others.find(is_next).map(|(place, _)| place)
+        let next = others.find(|(place, other)| {
+            !links.has(1 - side, *place) && is_reached(orbit, other, &metric, &self.protocol)
+        });
+        next.map(|(place, _)| place)
     }
 
     /// Links what continuation has left, by the cases that inherit their start.
@@ -254,8 +255,12 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         pairs.retain(|[a, b]| !links.has(0, *a) && !links.has(1, *b));
         pairs.retain(|pair| !Apart::among(&apart.unseen, pair));
         pairs.retain(|[a, b]| !(self.repeats(0, *a) && self.repeats(1, *b)));
-        let shares = |[a, b]: &[usize; 2]| pairs.iter().filter(|[c, d]| a == c || b == d).count();
-        links.pairs.extend(pairs.iter().filter(|pair| shares(pair) == 1));
+        // Each shares a place with itself.
+        links.pairs.extend(
+            pairs
+                .iter()
+                .filter(|[a, b]| pairs.iter().filter(|[c, d]| a == c || b == d).count() == 1),
+        );
     }
 
     /// The pairs of which cases say that they are one: upward ones lead from the first to the second, and downward ones back.
@@ -264,31 +269,32 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
     /// orbit is known to end between the two values. Breaks: where a case falls from one attractor to another beside it, and one
     /// of the other direction falls back, or none begins there.
     fn led(upward: &[[usize; 2]], downward: &[[usize; 2]], apart: &Apart) -> Vec<[usize; 2]> {
-        let goes_back = |pair: &&[usize; 2]| downward.contains(pair);
-        let mut pairs: Vec<[usize; 2]> = upward.iter().filter(goes_back).copied().collect();
+        let both = upward.iter().filter(|pair| downward.contains(pair));
+        let mut pairs: Vec<[usize; 2]> = both.copied().collect();
         for (there, back, reached) in [(upward, downward, 1), (downward, upward, 0)] {
-            let is_alone = |pair: &&[usize; 2]| {
-                let begins = |other: &[usize; 2]| other[reached] == pair[reached];
-                !back.iter().any(begins) && !Apart::among(&apart.ended, pair)
-            };
-            pairs.extend(there.iter().filter(is_alone));
+            pairs.extend(there.iter().filter(|pair| {
+                back.iter().all(|other| other[reached] != pair[reached])
+                    && !Apart::among(&apart.ended, pair)
+            }));
         }
         pairs
     }
 
     /// The attractors that do not repeat, where each cell has just one that is not linked.
     fn only_ones(&self, links: &Links<[f64; D]>) -> Vec<[usize; 2]> {
-        let left = |side: usize| {
-            let attractors = self.cells[side].attractors.iter().enumerate();
-            let mut left = attractors
-                .filter(|(place, it)| it.outcome != Outcome::Periodic && !links.has(side, *place));
-            let first = left.next().map(|(place, it)| (place, it.outcome));
-            first.filter(|_| left.next().is_none())
-        };
-        match (left(0), left(1)) {
+        match (self.only_one(0, links), self.only_one(1, links)) {
             (Some((a, first)), Some((b, second))) if first == second => vec![[a, b]],
             _ => Vec::new(),
         }
+    }
+
+    /// The one attractor of a cell that does not repeat and is not linked; none where there are several.
+    fn only_one(&self, side: usize, links: &Links<[f64; D]>) -> Option<(usize, Outcome)> {
+        let attractors = self.cells[side].attractors.iter().enumerate();
+        let mut left = attractors
+            .filter(|(place, it)| it.outcome != Outcome::Periodic && !links.has(side, *place));
+        let first = left.next().map(|(place, it)| (place, it.outcome));
+        first.filter(|_| left.next().is_none())
     }
 }
 
@@ -307,7 +313,9 @@ pub fn linear_orbits<M: System<D>, const D: usize>(
     value: f64,
     cell: &Table<[f64; D]>,
 ) -> Vec<Option<Linearised<M::Event, D>>> {
-    let periodic = |it: &Attractor<[f64; D]>| it.outcome == Outcome::Periodic;
-    let linear = |it: &Attractor<[f64; D]>| linearised(integrator, along, (value, &it.points));
-    cell.attractors.iter().map(|it| periodic(it).then(|| linear(it))?).collect()
+    let orbits = cell.attractors.iter().map(|it| match it.outcome {
+        Outcome::Periodic => linearised(integrator, along, value, &it.points),
+        _ => None,
+    });
+    orbits.collect()
 }

@@ -37,7 +37,12 @@ pub fn shares_of_draws(
     attractors: usize,
 ) -> Vec<Share> {
     let (counts, all) = counted(starts, label, attractors);
-    let share = |&starts: &usize| {
+    counts.into_iter().map(|starts| Share::of_draws(starts, all)).collect()
+}
+
+impl Share {
+    /// That of so many of all draws.
+    fn of_draws(starts: usize, all: usize) -> Share {
         let (n, p) = (all as f64, starts as f64 / all as f64);
         let square = DEVIATE * DEVIATE;
         let middle = (p + square / (2.0 * n)) / (1.0 + square / n);
@@ -45,8 +50,13 @@ pub fn shares_of_draws(
         let half = DEVIATE * spread / (1.0 + square / n);
         let interval = Some([(middle - half).max(0.0), (middle + half).min(1.0)]);
         Share { starts, value: p, error: (p * (1.0 - p) / n).sqrt(), interval }
-    };
-    counts.iter().map(share).collect()
+    }
+
+    /// That of so many of all starts of a grid, whose number has this variance.
+    fn of_grid(starts: usize, all: usize, variance: f64) -> Share {
+        let (value, error) = (starts as f64 / all as f64, variance.sqrt() / all as f64);
+        Share { starts, value, error, interval: None }
+    }
 }
 
 /// The shares of `attractors` of the starts of a grid of this `shape`, the last axis fastest.
@@ -61,25 +71,13 @@ pub fn shares_of_grid(
 ) -> Vec<Share> {
     let starts = shape.iter().product();
     let (counts, all) = counted(starts, &label, attractors);
-    let share = |starts: usize, variance: f64| {
-        let (value, error) = (starts as f64 / all as f64, variance.sqrt() / all as f64);
-        Share { starts, value, error, interval: None }
-    };
     if all < starts {
-        return counts.iter().map(|&starts| share(starts, f64::NAN)).collect();
+        return counts.into_iter().map(|it| Share::of_grid(it, all, f64::NAN)).collect();
     }
     let mut variances = vec![0.0; attractors];
     let mut near: Vec<Label> = Vec::new();
     for start in 0..starts {
-        near.clear();
-        near.push(label(start));
-        let mut spacing = starts;
-        for &length in shape {
-            spacing /= length;
-            let at = start / spacing % length;
-            near.extend((at > 0).then(|| label(start - spacing)));
-            near.extend((at + 1 < length).then(|| label(start + spacing)));
-        }
+        see_neighbours(shape, start, &label, &mut near);
         if near.iter().all(|it| *it == near[0]) {
             continue;
         }
@@ -93,7 +91,26 @@ pub fn shares_of_grid(
             }
         }
     }
-    counts.iter().zip(variances).map(|(&starts, variance)| share(starts, variance)).collect()
+    let both = counts.into_iter().zip(variances);
+    both.map(|(starts, variance)| Share::of_grid(starts, all, variance)).collect()
+}
+
+/// Sees the label of a start of a grid, and those of its neighbours along the axes.
+fn see_neighbours(
+    shape: &[usize],
+    start: usize,
+    label: impl Fn(usize) -> Label,
+    near: &mut Vec<Label>,
+) {
+    near.clear();
+    near.push(label(start));
+    let mut spacing: usize = shape.iter().product();
+    for &length in shape {
+        spacing /= length;
+        let at = start / spacing % length;
+        near.extend((at > 0).then(|| label(start - spacing)));
+        near.extend((at + 1 < length).then(|| label(start + spacing)));
+    }
 }
 
 /// The starts of each attractor, and all that have been computed.

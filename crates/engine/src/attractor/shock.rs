@@ -44,11 +44,11 @@ pub fn minimal_critical_shock<const D: usize>(
     metric: &Metric<D>,
     elsewhere: &dyn Fn(&[[f64; D]]) -> Vec<bool>,
 ) -> Option<Shock<D>> {
-    let search = |from: &[f64; D]| {
+    let shocks = points.iter().map(|&from| {
         let random = fastrand::Rng::with_seed(SEED);
-        Search { from: *from, metric, elsewhere, random }.smallest(first)
-    };
-    points.iter().map(search).min_by(|a, b| a.size.total_cmp(&b.size))
+        Search { from, metric, elsewhere, random }.smallest(first)
+    });
+    shocks.min_by(|a, b| a.size.total_cmp(&b.size))
 }
 
 /// The search around one section point.
@@ -106,12 +106,14 @@ impl<const D: usize> Search<'_, D> {
         let (mut low, mut high) = (0.0, 1.0);
         let (parts, times) = RAY;
         for _ in 0..times {
-            let share = |part: usize| low + (high - low) * part as f64 / parts as f64;
+            let shares: Vec<f64> =
+                (0..=parts).map(|part| low + (high - low) * part as f64 / parts as f64).collect();
+            let inner = shares[1..parts].iter();
             let inner: Vec<[f64; D]> =
-                (1..parts).map(|part| self.at(shift.map(|it| it * share(part)))).collect();
+                inner.map(|share| self.at(shift.map(|it| it * share))).collect();
             let leads = (self.elsewhere)(&inner);
             let first = leads.iter().position(|leads| *leads).map_or(parts, |place| place + 1);
-            (low, high) = (share(first - 1), share(first));
+            (low, high) = (shares[first - 1], shares[first]);
         }
         let shift = shift.map(|it| it * high);
         Shock { from: self.from, to: self.at(shift), size: norm(&shift) }

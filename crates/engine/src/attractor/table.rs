@@ -40,8 +40,8 @@ pub(super) fn results<T: Send>(
         let result = function(range.start + place);
         *results[place].lock().expect("no thread has panicked") = Some(result);
     });
-    let result = |it: Mutex<Option<T>>| it.into_inner().expect("no thread has panicked");
-    results.into_iter().map(|it| result(it).expect("it was called for each")).collect()
+    let results = results.into_iter().map(|it| it.into_inner().expect("no thread has panicked"));
+    results.map(|it| it.expect("it was called for each")).collect()
 }
 
 /// The attractors at one set of parameters.
@@ -118,19 +118,17 @@ impl<const D: usize> Table<[f64; D]> {
     ) {
         let (mut first, mut together) = (0, AT_FIRST);
         while first < cases {
-            let meet = |place: usize| {
+            let last = cases.min(first + together);
+            let met = results(executor, first..last, |place| {
                 let (index, motion) = motion(place);
                 let mut found = Attractor::of(index, system, &motion?, protocol)?;
                 let known = self.place(&mut found, system, protocol);
                 found.shorten();
                 Some(known.ok_or(found))
-            };
-            let last = cases.min(first + together);
-            let met: Vec<Option<Result<usize, Attractor<[f64; D]>>>> =
-                results(executor, first..last, meet);
+            });
             for met in met {
-                let add = |new| self.add(new, system, protocol);
-                let place = met.map(|met| met.unwrap_or_else(add));
+                let place =
+                    met.map(|met| met.unwrap_or_else(|new| self.add(new, system, protocol)));
                 self.of_case.push(place.map(|place| place as u32));
             }
             (first, together) = (last, TOGETHER.min(AT_FIRST * together));
@@ -140,7 +138,8 @@ impl<const D: usize> Table<[f64; D]> {
     /// The places of the attractors in the order of their numbers.
     fn ordered(&self, metric: &Metric<D>) -> Vec<usize> {
         let size = self.attractors.iter().map(|it| it.size).fold(0.0, f64::max);
-        let key = |place: &usize| {
+        let mut order: Vec<usize> = (0..self.attractors.len()).collect();
+        order.sort_by_cached_key(|place| {
             let it = &self.attractors[*place];
             let kind = match it.outcome {
                 Outcome::Periodic => 0,
@@ -149,9 +148,7 @@ impl<const D: usize> Table<[f64; D]> {
             };
             let period = if kind == 0 { it.points.len() } else { 0 };
             (kind, period, metric.rounded(&it.mark(metric), ROUNDED * size))
-        };
-        let mut order: Vec<usize> = (0..self.attractors.len()).collect();
-        order.sort_by_cached_key(key);
+        });
         order
     }
 
@@ -164,14 +161,15 @@ impl<const D: usize> Table<[f64; D]> {
     ) -> Option<usize> {
         let (metric, outcome) = (system.metric(), found.outcome);
         (0..found.comparisons()).find_map(|comparison| {
-            let has_points = |known: &Attractor<[f64; D]>| {
-                known.outcome == outcome && known.has_points_for(comparison)
-            };
-            if !self.attractors.iter().any(has_points) {
-                return None;
-            }
+            let compared =
+                self.attractors.iter().enumerate().filter(|(_, known)| {
+                    known.outcome == outcome && known.has_points_for(comparison)
+                });
+            let mut compared = compared.peekable();
+            compared.peek()?;
             found.follow_for(comparison, system, protocol);
-            self.attractors.iter().position(|known| has_points(known) && known.is(found, &metric))
+            let known = compared.find(|(_, known)| known.is(found, &metric));
+            known.map(|(place, _)| place)
         })
     }
 
@@ -202,8 +200,7 @@ pub fn attractors_of<M: System<D>, const D: usize>(
     orbits: &[OrbitOf<M, D>],
     protocol: &Protocol,
 ) -> Table<[f64; D]> {
-    let motion = |orbit: &OrbitOf<M, D>| FinalMotion::of(orbit, M::Single::point(&orbit.end));
-    let motions: Vec<_> = orbits.iter().map(motion).collect();
-    let motion = |place: usize| (place, Some(motions[place]));
-    Table::sort(orbits.len(), motion, system, protocol, &Serial)
+    let motions = orbits.iter().map(|it| FinalMotion::of(it, M::Single::point(&it.end)));
+    let motions: Vec<_> = motions.collect();
+    Table::sort(orbits.len(), |place| (place, Some(motions[place])), system, protocol, &Serial)
 }

@@ -75,16 +75,11 @@ pub fn uncertainty(shape: &[usize], label: impl Fn(usize) -> Label) -> Option<Un
             slope: samples.estimate(|logs| local_slope(&crossed, logs, at)),
         })
         .collect();
-    let differ = |first: usize, second: usize| {
-        let difference = samples.estimate(|logs| {
-            local_slope(&crossed, logs, second) - local_slope(&crossed, logs, first)
-        });
-        difference.value.abs() > APART * difference.error
-    };
-    let scales = !(0..count).any(|first| (first + 1..count).any(|second| differ(first, second)));
+    let mut pairs = (0..count).flat_map(|first| (first + 1..count).map(move |it| [first, it]));
+    let scales = !pairs.any(|[first, second]| samples.differ(&crossed, first, second));
     let fitted = samples.estimate(|logs| fitted_slope(&crossed, logs));
-    let beyond = |it: &LocalSlope| (it.slope.value - fitted.value).abs() - it.slope.error;
-    let error = slopes.iter().map(beyond).fold(fitted.error, f64::max);
+    let beyond = slopes.iter().map(|it| (it.slope.value - fitted.value).abs() - it.slope.error);
+    let error = beyond.fold(fitted.error, f64::max);
     let exponent = Estimate { value: fitted.value, error };
     let dimension = Estimate { value: shape.len() as f64 - fitted.value, error };
     Some(Uncertainty { exponent, dimension, sizes, slopes, scales })
@@ -135,29 +130,44 @@ struct Samples {
 
 impl Samples {
     fn of(counts: &[Counts], axes: usize) -> Samples {
-        let log = |it: &Counts| (it.size.crossed as f64 / it.size.boxes as f64).ln();
-        let without = |axis: usize, slab: usize| -> Vec<f64> {
-            counts.iter().map(|it| it.size.log_share_without(&it.slabs[axis][slab])).collect()
-        };
-        let slabs = |axis: usize| (0..SLABS).map(|slab| without(axis, slab)).collect();
-        Samples { whole: counts.iter().map(log).collect(), without: (0..axes).map(slabs).collect() }
+        let whole = counts.iter().map(|it| (it.size.crossed as f64 / it.size.boxes as f64).ln());
+        let mut without = vec![Vec::new(); axes];
+        for (axis, without) in without.iter_mut().enumerate() {
+            for slab in 0..SLABS {
+                let logs = counts.iter().map(|it| it.size.log_share_without(&it.slabs[axis][slab]));
+                without.push(logs.collect());
+            }
+        }
+        Samples { whole: whole.collect(), without }
+    }
+
+    /// Whether the local slopes after two sizes differ by more than their errors.
+    fn differ(&self, counts: &[Counts], first: usize, second: usize) -> bool {
+        let difference = self
+            .estimate(|logs| local_slope(counts, logs, second) - local_slope(counts, logs, first));
+        difference.value.abs() > APART * difference.error
     }
 
     /// A number that follows from the logarithms of the shares, with its statistical error: infinite where all that is crossed by
     /// the boundary at some size lies in one slab.
     fn estimate(&self, of: impl Fn(&[f64]) -> f64) -> Estimate {
-        let variance = |slabs: &Vec<Vec<f64>>| {
+        let variances = self.without.iter().map(|slabs| {
             let values: Vec<f64> = slabs.iter().map(|logs| of(logs)).collect();
-            if values.iter().any(|it| !it.is_finite()) {
-                return f64::INFINITY;
-            }
-            let count = values.len() as f64;
-            let mean = values.iter().sum::<f64>() / count;
-            (count - 1.0) / count * values.iter().map(|it| (it - mean).powi(2)).sum::<f64>()
-        };
-        let largest = self.without.iter().map(variance).fold(0.0, f64::max);
+            jackknife(&values)
+        });
+        let largest = variances.fold(0.0, f64::max);
         Estimate { value: of(&self.whole), error: largest.sqrt() }
     }
+}
+
+/// The variance of a number by what leaving out each slab makes of it.
+fn jackknife(values: &[f64]) -> f64 {
+    if values.iter().any(|it| !it.is_finite()) {
+        return f64::INFINITY;
+    }
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (count - 1.0) / count * values.iter().map(|it| (it - mean).powi(2)).sum::<f64>()
 }
 
 /// The slope between a size and the next.

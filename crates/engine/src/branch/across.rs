@@ -25,6 +25,19 @@ struct Across<L, const D: usize> {
     time: L,
 }
 
+impl<L: Lane, const D: usize> Across<L, D> {
+    /// How far the event is from the instant of the section [s].
+    fn away(&self) -> f64 {
+        self.time.lane(0).abs()
+    }
+
+    fn keep_if_nearer(self, nearest: &mut Option<Self>) {
+        if nearest.as_ref().is_none_or(|known| self.away() < known.away()) {
+            *nearest = Some(self);
+        }
+    }
+}
+
 impl<M: System<D>, const D: usize> Family<M, D> {
     /// The other side of the event that lies nearest to the instant of the section, if one is near.
     fn across<L: Lane>(&self, point: [L; D], free: &[(M::Parameter, L)]) -> Option<Across<L, D>> {
@@ -34,19 +47,13 @@ impl<M: System<D>, const D: usize> Family<M, D> {
         let system = self.with_free(free);
         let period = system.period();
         let near = NEAR * period.lane(0);
-        let other_side = |state| M::In::<L>::point(&state);
-        let mut found: Option<Across<L, D>> = None;
-        let mut nearer = |across: Across<L, D>| {
-            let away = |it: &Across<L, D>| it.time.lane(0).abs();
-            if found.as_ref().is_none_or(|known| away(&across) < away(known)) {
-                found = Some(across);
-            }
-        };
+        let mut nearest: Option<Across<L, D>> = None;
         let (mut cycle, mut begun_with) = (1, None);
         let cycles = Cycles { count: self.period, tolerance: self.tolerance };
         let end = returned(&system, point, &cycles, |step| {
             if let Some(time) = begun_with.take() {
-                nearer(Across { point: other_side(system.at(&step.jet, -step.start)), time });
+                let point = M::In::<L>::point(&system.at(&step.jet, -step.start));
+                Across { point, time }.keep_if_nearer(&mut nearest);
             }
             let at_end = step.start + step.length;
             let left = period - at_end;
@@ -54,12 +61,12 @@ impl<M: System<D>, const D: usize> Family<M, D> {
                 begun_with = Some(at_end);
             }
             if step.event.lane(0) > 0.0 && cycle == self.period && left.lane(0) < near {
-                let point = other_side(system.at(&step.jet, step.length + left));
-                nearer(Across { point, time: -left });
+                let point = M::In::<L>::point(&system.at(&step.jet, step.length + left));
+                Across { point, time: -left }.keep_if_nearer(&mut nearest);
             }
             cycle += u64::from(step.arrives.lane(0));
         });
-        end.ok().and(found)
+        end.ok().and(nearest)
     }
 }
 

@@ -87,32 +87,44 @@ pub fn corrected<const U: usize, E: Equations<U>>(
     guess: &[f64; U],
     ahead: &[f64; U],
 ) -> Option<(CurvePoint<U, E::Seen>, usize)> {
-    corrected_within(equations, plane, (guess, FARTHEST), ahead)
+    corrected_within(equations, plane, Guess { at: guess, farthest: FARTHEST }, ahead)
 }
 
-/// The same where no unknown may move farther than so much from the guess on the way.
+/// Where Newton's method begins.
+#[derive(Debug, Clone, Copy)]
+pub struct Guess<'a, const U: usize> {
+    /// The unknowns there.
+    pub at: &'a [f64; U],
+    /// No unknown may move farther from there on the way.
+    pub farthest: f64,
+}
+
+/// The same from a guess that says how far an unknown may move.
 pub fn corrected_within<const U: usize, E: Equations<U>>(
     equations: &E,
     plane: &Plane<U>,
-    (guess, farthest): (&[f64; U], f64),
+    guess: Guess<'_, U>,
     ahead: &[f64; U],
 ) -> Option<(CurvePoint<U, E::Seen>, usize)> {
-    let condition =
-        |at: &[f64; U], _: &E::Seen| Some((dot(&plane.normal, at) - plane.offset, plane.normal));
-    corrected_by(equations, condition, (guess, farthest), ahead)
+    corrected_by(
+        equations,
+        |at, _| Some((dot(&plane.normal, at) - plane.offset, plane.normal)),
+        guess,
+        ahead,
+    )
 }
 
 /// The solution near `guess` at which a condition vanishes that is given with its derivatives.
 ///
 /// Method: Newton's with exact derivatives, until the residual no longer shrinks. None where it does not get
-/// below rounding, or where an unknown gets `farthest` from the guess.
+/// below rounding, or where an unknown gets [`Guess::farthest`] from the guess.
 pub fn corrected_by<const U: usize, E: Equations<U>>(
     equations: &E,
     condition: impl Fn(&[f64; U], &E::Seen) -> Option<(f64, [f64; U])>,
-    (guess, farthest): (&[f64; U], f64),
+    guess: Guess<'_, U>,
     ahead: &[f64; U],
 ) -> Option<(CurvePoint<U, E::Seen>, usize)> {
-    let mut at = *guess;
+    let mut at = *guess.at;
     let mut best: Option<(f64, CurvePoint<U, E::Seen>, usize)> = None;
     for taken in 0..PATIENCE {
         let Ok(Linear { mut residual, mut rows, seen }) = equations.at(&at) else { break };
@@ -133,7 +145,7 @@ pub fn corrected_by<const U: usize, E: Equations<U>>(
         rows[U - 1] = normal;
         let step = solve(rows, residual)?;
         at = std::array::from_fn(|i| at[i] - step[i]);
-        if between(guess, &at).iter().any(|part| part.abs() > farthest) {
+        if between(guess.at, &at).iter().any(|part| part.abs() > guess.farthest) {
             break;
         }
     }

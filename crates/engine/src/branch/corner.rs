@@ -19,13 +19,14 @@ pub fn is_corner<const U: usize, E: Equations<U>>(
     equations: &E,
     at: &CurvePoint<U, E::Seen>,
 ) -> bool {
-    let size = |rows: &[[f64; U]]| rows.iter().flatten().fold(1.0_f64, |most, x| most.max(x.abs()));
+    let rows = at.rows[..U - 1].iter().flatten();
+    let size = rows.fold(1.0_f64, |most, x| most.max(x.abs()));
     (0..2 * U).any(|side| {
         let Ok(linear) = equations.at(&beside(&at.at, side, RADII[2])) else { return true };
         let pairs = linear.rows.iter().zip(&at.rows).take(U - 1);
         let changes: Vec<[f64; U]> = pairs.map(|(there, here)| between(here, there)).collect();
         let apart = changes.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
-        apart > JUMP * size(&at.rows[..U - 1])
+        apart > JUMP * size
     })
 }
 

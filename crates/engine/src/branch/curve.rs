@@ -39,8 +39,8 @@ pub struct Trace<M: System<D>, const D: usize, const W: usize> {
 impl<M: System<D>, const D: usize, const W: usize> Trace<M, D, W> {
     /// What is kept of it.
     pub fn curve(&self) -> Curve {
-        let value = |at: &[f64; W]| [D, D + 1].map(|i| at[i] * self.locus.units[i]);
-        let points = self.special.iter().map(value).collect();
+        let values = self.special.iter();
+        let points = values.map(|at| [D, D + 1].map(|i| at[i] * self.locus.units[i])).collect();
         let (kind, period) = (self.locus.kind, self.locus.family.period);
         Curve { kind, through: self.through, period, points, ends: self.ends }
     }
@@ -48,8 +48,9 @@ impl<M: System<D>, const D: usize, const W: usize> Trace<M, D, W> {
     /// Whether it goes through an orbit, from whichever of its section points.
     fn passes(&self, point: &LocusPoint<W>) -> bool {
         let images = self.locus.images(point);
-        let through = |ends: &[[f64; W]], at| passes(&self.locus, [&ends[0], &ends[1]], at);
-        self.points.windows(2).any(|ends| images.iter().any(|image| through(ends, &image.at)))
+        self.points.windows(2).any(|ends| {
+            images.iter().any(|image| passes(&self.locus, [&ends[0], &ends[1]], &image.at))
+        })
     }
 }
 
@@ -85,24 +86,14 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
     let free = [request.along, second];
     let mut family = orbits.family.clone();
     family.period = period(orbits, special);
-    let locus = |margin: f64| {
-        let (family, kind) = (family.clone(), special.kind);
-        Locus { family, free, units, kind, margin }
-    };
-    let begun = |margin: &f64| {
-        let locus = locus(*margin);
-        let start = start(&locus, special, value)?;
-        Some((locus, start))
-    };
-    let margins: &[f64] = if special.kind == SpecialKind::Grazing { &BESIDE } else { &[0.0] };
-    // On the side without the impact the return map of a rigid surface is smooth.
-    let impacts = |(_, start): &(_, LocusPoint<W>)| start.seen.map_or(0, |touch| touch.impacts);
-    let (locus, start) = margins.iter().filter_map(begun).min_by_key(impacts)?;
-    let alike = |trace: &Trace<M, D, W>| {
+    let locus = Locus { family, free, units, kind: special.kind, margin: 0.0 };
+    let (locus, start) = begun(locus, special, value)?;
+    let known = traces.iter().position(|trace| {
         (trace.locus.kind, trace.locus.period()) == (locus.kind, locus.period())
-    };
-    if let Some(known) = traces.iter().position(|trace| alike(trace) && trace.passes(&start)) {
-        return Some(known);
+            && trace.passes(&start)
+    });
+    if known.is_some() {
+        return known;
     }
     let bounds = Bounds::none()
         .with(D, request.range.map(|end| end / along))
@@ -114,16 +105,31 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
     Some(traces.len() - 1)
 }
 
+/// The equations of a curve with the point of it from which it is followed: of grazings beside the surface, on the side without
+/// the impact if there is one, as the return map of a rigid surface is smooth there.
+fn begun<M: System<D>, O, const D: usize, const W: usize>(
+    locus: Locus<M, D, W>,
+    special: &Special<O, [f64; D]>,
+    second: f64,
+) -> Option<(Locus<M, D, W>, LocusPoint<W>)> {
+    let margins: &[f64] = if special.kind == SpecialKind::Grazing { &BESIDE } else { &[0.0] };
+    let begun = margins.iter().filter_map(|&margin| {
+        let locus = Locus { margin, ..locus.clone() };
+        let start = start(&locus, special, second)?;
+        Some((locus, start))
+    });
+    begun.min_by_key(|(_, start)| start.seen.map_or(0, |touch| touch.impacts))
+}
+
 /// The period of a special orbit: half that of the branch where it merges in a grazing, and no other orbit lies on its curve.
 fn period<M: System<D>, O, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
     special: &Special<O, [f64; D]>,
 ) -> u64 {
-    let merges = || {
-        let at = orbits.unknowns(special.point.section.first()?, special.point.parameter);
-        Some(norm(&orbits.halfway(&at)?) <= HALF)
-    };
-    let is_half = special.kind == SpecialKind::Grazing && merges().unwrap_or(false);
+    let Some(section) = special.point.section.first() else { return orbits.family.period };
+    let at = orbits.unknowns(section, special.point.parameter);
+    let is_half = special.kind == SpecialKind::Grazing
+        && orbits.halfway(&at).is_some_and(|apart| norm(&apart) <= HALF);
     orbits.family.period / if is_half { 2 } else { 1 }
 }
 
@@ -142,9 +148,9 @@ fn start<M: System<D>, O, const D: usize, const W: usize>(
     let plane = Plane::fixing(D + 1, at[D + 1]);
     let (start, _) = corrected(locus, &plane, &at, &plane.normal)?;
     let away = between(&at, &locus.special(&start, &plane.normal)?);
-    let near = |i: usize| away[i].abs() <= AT_SPECIAL * at[i].abs().max(1.0);
     let tangent = tangent(start.rows, &plane.normal)?;
-    (0..W).all(near).then_some(CurvePoint { tangent, ..start })
+    let is_near = (0..W).all(|i| away[i].abs() <= AT_SPECIAL * at[i].abs().max(1.0));
+    is_near.then_some(CurvePoint { tangent, ..start })
 }
 
 /// The curve through an orbit from one end to the other, of so many points at most.
@@ -155,17 +161,18 @@ fn both_directions<M: System<D>, const D: usize, const W: usize>(
     most: usize,
 ) -> (Vec<Both<W>>, [End; 2]) {
     let back = turned(start);
-    let (mut points, last, end) =
-        one_direction(locus, &back, control, most.div_ceil(2), &Goal::at(locus, &back));
+    let goal = Goal::at(locus, &back);
+    let (backward, end) = Direction::begun(locus, &back, control).follow(most.div_ceil(2), &goal);
+    let Direction { mut points, last, .. } = backward;
     if end == End::Closed {
         return (points, [end; 2]);
     }
     // A closed curve that is longer than one half meets the end of that half.
     let left = most + 1 - points.len();
     let goal = Goal::at(locus, &turned(&last));
-    let (forward, _, other_end) = one_direction(locus, start, control, left, &goal);
+    let (forward, other_end) = Direction::begun(locus, start, control).follow(left, &goal);
     points.reverse();
-    points.extend(forward.into_iter().skip(1));
+    points.extend(forward.points.into_iter().skip(1));
     (points, if other_end == End::Closed { [other_end; 2] } else { [end, other_end] })
 }
 
@@ -174,79 +181,90 @@ fn turned<const W: usize>(point: &LocusPoint<W>) -> LocusPoint<W> {
     CurvePoint { tangent: point.tangent.map(|part| -part), ..point.clone() }
 }
 
-/// The curve from a point on along its tangent, its last point with the tangent, and why it ends.
-fn one_direction<M: System<D>, const D: usize, const W: usize>(
-    locus: &Locus<M, D, W>,
-    start: &LocusPoint<W>,
-    mut control: StepControl<W>,
-    most: usize,
-    goal: &Goal<W, Option<Touch>>,
-) -> (Vec<Both<W>>, LocusPoint<W>, End) {
-    let bounds = control.bounds;
-    // Of a point at a bound the special orbit lies there, too.
-    let both = |point: &LocusPoint<W>, at_bound: bool| {
-        let bound =
-            |i: &usize| at_bound && [bounds.low[*i], bounds.high[*i]].contains(&point.at[*i]);
-        let fixed = (D..W).find(bound);
-        let normal = fixed.map_or(point.tangent, |i| Plane::fixing(i, point.at[i]).normal);
-        (point.at, locus.special(point, &normal).unwrap_or(point.at))
-    };
-    // The special point that it was begun from lies on it.
-    let begun = locus.special(start, &Plane::fixing(D + 1, start.at[D + 1]).normal);
-    let mut points = vec![(start.at, begun.unwrap_or(start.at))];
-    let mut last = start.clone();
-    let Locus { family, units, free, .. } = locus;
-    while points.len() < most {
-        let mut advance = control.advance(locus, &last);
-        let mut has_jumped = false;
-        if matches!(advance, Advance::Nowhere)
-            && let Some(beyond) =
-                across_section(locus, &Unknowns { family, units, free }, &control, &last)
-        {
-            (advance, has_jumped) = (beyond, true);
-        }
-        let at_bound = matches!(advance, Advance::AtBound(_));
-        let (Advance::Inside(next) | Advance::AtBound(next)) = advance else {
-            let end = dead_end(locus, &last);
-            return (points, last, end);
-        };
-        if has_jumped {
-            points.push(both(&next, at_bound));
-            last = next;
-            if at_bound {
-                return (points, last, End::Bound);
+/// A curve from a point on along its tangent, as far as it has been followed.
+struct Direction<'l, M: System<D>, const D: usize, const W: usize> {
+    locus: &'l Locus<M, D, W>,
+    control: StepControl<W>,
+    points: Vec<Both<W>>,
+    /// The last point with its tangent.
+    last: LocusPoint<W>,
+}
+
+impl<'l, M: System<D>, const D: usize, const W: usize> Direction<'l, M, D, W> {
+    /// The point at which it begins; the special point that it was begun from lies on it.
+    fn begun(locus: &'l Locus<M, D, W>, start: &LocusPoint<W>, control: StepControl<W>) -> Self {
+        let begun = locus.special(start, &Plane::fixing(D + 1, start.at[D + 1]).normal);
+        let points = vec![(start.at, begun.unwrap_or(start.at))];
+        Direction { locus, control, points, last: start.clone() }
+    }
+
+    /// Follows the curve until it ends, closes at `goal` or has `most` points.
+    fn follow(mut self, most: usize, goal: &Goal<W, Option<Touch>>) -> (Self, End) {
+        while self.points.len() < most {
+            if let Some(end) = self.advance(goal) {
+                return (self, end);
             }
-            continue;
         }
-        if let Some(goal) = goal.met(locus, [&last, &next], points.len()) {
-            points.push(both(&goal, false));
-            return (points, goal, End::Closed);
+        (self, End::MostPoints)
+    }
+
+    /// Adds the next point, unless the step is halved, and says why the curve ends if it does.
+    fn advance(&mut self, goal: &Goal<W, Option<Touch>>) -> Option<End> {
+        let (next, at_bound) = match self.control.advance(self.locus, &self.last) {
+            Advance::Inside(next) => (next, false),
+            Advance::AtBound(next) => (next, true),
+            Advance::Nowhere => return self.beyond_section(),
+        };
+        if let Some(goal) = goal.met(self.locus, [&self.last, &next], self.points.len()) {
+            self.points.push(self.with_special(&goal, false));
+            self.last = goal;
+            return Some(End::Closed);
         }
-        let step = norm(&between(&last.at, &next.at));
-        if let Some(apart) = comes_back(locus, &last, &next) {
-            let [short, shortest] = [ACROSS, LEAST].map(|share| step <= share * control.longest);
+        let step = norm(&between(&self.last.at, &next.at));
+        if let Some(apart) = comes_back(self.locus, &self.last, &next) {
+            let [short, shortest] =
+                [ACROSS, LEAST].map(|share| step <= share * self.control.longest);
             // The curve turns where its orbits halve, which a short step comes near enough.
             if short && apart <= if shortest { STEEPEST } else { GENTLE } * step {
-                return (points, last, End::Merged);
+                return Some(End::Merged);
             }
             if !shortest {
-                control.next = 0.5 * step;
-                continue;
+                self.control.next = 0.5 * step;
+                return None;
             }
         }
         if step > ONE {
-            points.push(both(&next, at_bound));
+            self.points.push(self.with_special(&next, at_bound));
         }
-        last = next;
-        if at_bound {
-            return (points, last, End::Bound);
-        }
+        self.last = next;
         // Steps no longer than rounding lead nowhere.
-        if step <= ONE {
-            return (points, last, End::Stopped);
-        }
+        let stops = (step <= ONE).then_some(End::Stopped);
+        if at_bound { Some(End::Bound) } else { stops }
     }
-    (points, last, End::MostPoints)
+
+    /// Adds the point beyond the instant of the section, where no step leads on and the section point jumps there.
+    fn beyond_section(&mut self) -> Option<End> {
+        let Locus { family, units, free, .. } = self.locus;
+        let unknowns = Unknowns { family, units, free };
+        let beyond = across_section(self.locus, &unknowns, &self.control, &self.last);
+        let (next, at_bound) = match beyond {
+            Some(Advance::Inside(next)) => (next, false),
+            Some(Advance::AtBound(next)) => (next, true),
+            _ => return Some(dead_end(self.locus, &self.last)),
+        };
+        self.points.push(self.with_special(&next, at_bound));
+        self.last = next;
+        at_bound.then_some(End::Bound)
+    }
+
+    /// A point with the special orbit that it stands for, which lies at the bound, too, where the point does.
+    fn with_special(&self, point: &LocusPoint<W>, at_bound: bool) -> Both<W> {
+        let bounds = &self.control.bounds;
+        let fixed =
+            (D..W).find(|&i| at_bound && [bounds.low[i], bounds.high[i]].contains(&point.at[i]));
+        let normal = fixed.map_or(point.tangent, |i| Plane::fixing(i, point.at[i]).normal);
+        (point.at, self.locus.special(point, &normal).unwrap_or(point.at))
+    }
 }
 
 /// Why no step leads on from an orbit.

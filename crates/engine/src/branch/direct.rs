@@ -39,24 +39,33 @@ pub struct Linearised<E, const D: usize> {
     margins: Vec<(f64, f64)>,
 }
 
+impl<E, const D: usize> Linearised<E, D> {
+    /// How far it gets from one of its section points in so many cycles.
+    fn moves(&self, first: usize, cycles: usize) -> [f64; D] {
+        let [a, b] = [first, (first + cycles) % self.points.len()].map(|at| self.points[at]);
+        std::array::from_fn(|i| b[i] - a[i])
+    }
+}
+
 /// A periodic orbit with its derivatives, given by the value of the parameter and its section points; none where the
 /// motion cannot be followed, where the system has no such parameter, where a multiplier is one, and of an autonomous
 /// system, whose orbits may vanish.
 pub fn linearised<M: System<D>, const D: usize>(
     integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
-    (value, points): (f64, &[[f64; D]]),
+    value: f64,
+    points: &[[f64; D]],
 ) -> Option<Linearised<M::Event, D>> {
     if M::Single::AUTONOMOUS || !along.system.has(along.parameter) {
         return None;
     }
     let mut product: Matrix<D> = shifted(&[[0.0; D]; D], 1.0);
-    let (mut events, mut residuals, mut cycles) = (Vec::new(), Vec::new(), Vec::new());
-    let mut margins = Vec::new();
+    let (mut events, mut margins) = (Vec::new(), Vec::new());
+    let (mut residuals, mut cycles) = (Vec::new(), Vec::new());
     // How fast the end of the cycles so far moves with the parameter if their beginning does not.
     let mut of_end = [0.0; D];
     for (i, point) in points.iter().enumerate() {
-        let passage = integrator.passage(ReturnRequest {
+        let followed = integrator.passage(ReturnRequest {
             system: along.system.clone(),
             along: Some((along.parameter, value, 1.0)),
             point: *point,
@@ -64,7 +73,7 @@ pub fn linearised<M: System<D>, const D: usize>(
             cycles: Cycles { count: 1, tolerance: along.tolerance },
             watched: true,
         });
-        let passage = passage.ok()?;
+        let passage = followed.ok()?;
         let (end, next) = (passage.end, points[(i + 1) % points.len()]);
         residuals.push(std::array::from_fn(|j| end[j] - next[j]));
         let of_cycle = (passage.jacobian, passage.by_parameter);
@@ -74,12 +83,11 @@ pub fn linearised<M: System<D>, const D: usize>(
         margins.extend(passage.margins.into_iter().map(|(time, it)| (i as f64 + time, it)));
     }
     let first = solve(shifted(&product, -1.0), of_end.map(|part| -part))?;
-    let later = cycles.iter().scan(first, |slope, cycle| {
-        let here = *slope;
-        *slope = carried(cycle, &here);
-        Some(here)
-    });
-    let (slopes, points, events) = (later.collect(), points.to_vec(), cyclic(&events));
+    let mut slopes = vec![first];
+    for cycle in &cycles[..cycles.len() - 1] {
+        slopes.push(carried(cycle, &slopes[slopes.len() - 1]));
+    }
+    let (points, events) = (points.to_vec(), cyclic(&events));
     Some(Linearised { value, points, slopes, residuals, jacobian: product, events, margins })
 }
 
@@ -111,7 +119,7 @@ pub fn leads_to<M: System<D>, const D: usize>(
     to: &Linearised<M::Event, D>,
 ) -> bool {
     let range = [from.value.min(to.value), from.value.max(to.value)];
-    let units = units(&along.system, (along.parameter, range), &from.points);
+    let units = units(&along.system, along.parameter, range, &from.points);
     let step = Step { from, to, units };
     from.points.len() == to.points.len()
         && from.events == to.events
@@ -147,8 +155,9 @@ impl<E, const D: usize> Step<'_, E, D> {
 
     /// Whether the return map of an orbit is not too steep to be followed.
     fn is_followed(&self, orbit: &Linearised<E, D>) -> bool {
-        let slope = |i: usize, j: usize| orbit.jacobian[i][j] * self.units[j] / self.units[i];
-        (0..D).all(|i| (0..D).all(|j| slope(i, j).abs() <= STEEPEST))
+        orbit.jacobian.iter().zip(&self.units).all(|(row, unit)| {
+            row.iter().zip(&self.units).all(|(it, by)| (it * by / unit).abs() <= STEEPEST)
+        })
     }
 
     /// Whether no test function of a special point changes its sign.
@@ -165,10 +174,7 @@ impl<E, const D: usize> Step<'_, E, D> {
         let (from, to) = (self.from, self.to);
         let change = to.value - from.value;
         let [here, there] = [from.slopes[0], to.slopes[shift]].map(|it| it.map(|x| x * change));
-        let apart = |by: &dyn Fn(usize) -> f64| {
-            let apart = std::array::from_fn(|i| to.points[shift][i] - from.points[0][i] - by(i));
-            self.length(&apart)
-        };
+        let mean = std::array::from_fn(|i| 0.5 * (here[i] + there[i]));
         let section = self.length(&here);
         // The units of a segment: the parameter changes as the section does, within limits.
         let parameter = section.max(LEAST_MOVE);
@@ -176,8 +182,14 @@ impl<E, const D: usize> Step<'_, E, D> {
         let inner = self.inner(&here, &there) + parameter * parameter;
         section <= 1.0
             && inner >= LEAST_COSINE * lengths[0] * lengths[1]
-            && apart(&|i| here[i]) <= CORRECTION * lengths[0]
-            && apart(&|i| 0.5 * (here[i] + there[i])) <= TRAPEZOID * lengths[0]
+            && self.error(shift, &here) <= CORRECTION * lengths[0]
+            && self.error(shift, &mean) <= TRAPEZOID * lengths[0]
+    }
+
+    /// How far the other orbit is from where this one, moved so, would be.
+    fn error(&self, shift: usize, by: &[f64; D]) -> f64 {
+        let (here, there) = (self.from.points[0], self.to.points[shift]);
+        self.length(&std::array::from_fn(|i| there[i] - here[i] - by[i]))
     }
 
     /// Whether no extremum crosses its surface: of the same events one may begin where another ceases.
@@ -193,13 +205,8 @@ impl<E, const D: usize> Step<'_, E, D> {
 
     /// Whether the orbits repeat after no part of their period, and the step leads to no point half a period later.
     fn is_whole(&self, shift: usize) -> bool {
-        let count = self.to.points.len();
-        let after = |orbit: &Linearised<E, D>, first: usize, cycles: usize| {
-            let [a, b] = [first, (first + cycles) % count].map(|at| orbit.points[at]);
-            std::array::from_fn(|i| b[i] - a[i])
-        };
-        (1..count).all(|cycles| {
-            let [before, behind] = [after(self.from, 0, cycles), after(self.to, shift, cycles)];
+        (1..self.to.points.len()).all(|cycles| {
+            let (before, behind) = (self.from.moves(0, cycles), self.to.moves(shift, cycles));
             self.length(&behind) > HALVES && self.inner(&before, &behind) > 0.0
         })
     }

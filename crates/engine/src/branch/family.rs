@@ -88,16 +88,20 @@ pub fn counterpart(
     [here, there]: [&[(f64, f64)]; 2],
     period: u64,
 ) -> Option<(f64, f64)> {
-    let nearest = |among: &[(f64, f64)], time: f64| {
-        let away = |it: &(f64, f64)| apart(it.0, time, period);
-        among.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)))
-    };
-    let other = nearest(there, extremum.0)?;
-    (nearest(here, other.0)? == *extremum).then_some(other)
+    let other = nearest_in_time(there, extremum.0, period)?;
+    (nearest_in_time(here, other.0, period)? == *extremum).then_some(other)
+}
+
+/// The extremum that is nearest to a time.
+fn nearest_in_time(among: &[(f64, f64)], time: f64, period: u64) -> Option<(f64, f64)> {
+    among
+        .iter()
+        .copied()
+        .min_by(|a, b| apart(a.0, time, period).total_cmp(&apart(b.0, time, period)))
 }
 
 /// The sequence of events, begun where it is least: the same wherever on the orbit the section lies.
 pub fn cyclic<E: Event>(events: &[E]) -> Vec<E> {
-    let turned = |by: usize| [&events[by..], &events[..by]].concat();
-    (0..events.len()).map(turned).min().unwrap_or_default()
+    let turned = (0..events.len()).map(|by| [&events[by..], &events[..by]].concat());
+    turned.min().unwrap_or_default()
 }

@@ -146,16 +146,11 @@ fn first_orbit<M: System<D>, const D: usize, const U: usize>(
     }
     let Request { period, tolerance, .. } = *request;
     let family = Family { system: system.clone(), period, tolerance };
-    let measured_by = |points: &[[f64; D]]| units(system, (*along, request.range), points);
-    let in_units = |section: &[f64; D]| -> [f64; U] {
-        std::array::from_fn(|i| *section.get(i).unwrap_or(&width))
-    };
-    let units = in_units(&measured_by(&[request.section]));
     let mut orbits = Orbits {
         family,
         integrator: &OneByOne,
         along: *along,
-        units,
+        units: measured_by(request, &[request.section]),
         oriented: false,
         exact: EXACT,
     };
@@ -164,17 +159,7 @@ fn first_orbit<M: System<D>, const D: usize, const U: usize>(
     for _ in 0..APPROACHES {
         let guess = orbits.unknowns(&section, value);
         if let Some((point, _)) = corrected(&orbits, &plane, &guess, &plane.normal) {
-            orbits.family.period = least_period(&orbits, &point);
-            // The guess may be far away: only the orbit knows the scale of its motion.
-            let points = orbits.section_points(&point.at);
-            let points: Vec<[f64; D]> = points.iter().map(|at| orbits.section(at)).collect();
-            let section = orbits.section(&point.at);
-            orbits.units = in_units(&measured_by(&points));
-            let met = corrected(&orbits, &plane, &orbits.unknowns(&section, value), &plane.normal);
-            let (point, _) = met.ok_or(NotFollowed::NoOrbit)?;
-            if may_be_neutral(&point.seen.multipliers()) {
-                return Err(NotFollowed::Neutral);
-            }
+            let point = in_own_units(request, &mut orbits, &point)?;
             return Ok((orbits, point));
         }
         let ahead = orbits.with_period(APPROACH * request.period).family;
@@ -183,17 +168,51 @@ fn first_orbit<M: System<D>, const D: usize, const U: usize>(
     Err(NotFollowed::NoOrbit)
 }
 
+/// The first orbit by its own scale and of its own period: the guess may be far away, and only the orbit knows the scale of its
+/// motion.
+fn in_own_units<M: System<D>, const D: usize, const U: usize>(
+    request: &Request<M, D>,
+    orbits: &mut Orbits<'static, M, D, U>,
+    found: &OrbitPoint<M::Event, D, U>,
+) -> Result<OrbitPoint<M::Event, D, U>, NotFollowed> {
+    orbits.family.period = least_period(orbits, found);
+    let points = orbits.section_points(&found.at);
+    let points: Vec<[f64; D]> = points.iter().map(|at| orbits.section(at)).collect();
+    let section = orbits.section(&found.at);
+    orbits.units = measured_by(request, &points);
+    let value = request.system.value(request.along);
+    let plane = Plane::fixing(D, value / orbits.units[D]);
+    let met = corrected(orbits, &plane, &orbits.unknowns(&section, value), &plane.normal);
+    let (point, _) = met.ok_or(NotFollowed::NoOrbit)?;
+    match may_be_neutral(&point.seen.multipliers()) {
+        true => Err(NotFollowed::Neutral),
+        false => Ok(point),
+    }
+}
+
+/// Units of the section by the size of a motion with these section points, and of the parameter by its range.
+fn measured_by<M: System<D>, const D: usize, const U: usize>(
+    request: &Request<M, D>,
+    points: &[[f64; D]],
+) -> [f64; U] {
+    let Request { system, along, range, .. } = request;
+    let section = units(system, *along, *range, points);
+    let width = range[1] - range[0];
+    std::array::from_fn(|i| *section.get(i).unwrap_or(&width))
+}
+
 /// The smallest divisor of the period after which the orbit repeats.
 fn least_period<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
     point: &OrbitPoint<M::Event, D, U>,
 ) -> u64 {
     let period = orbits.family.period;
-    let repeats = |part: &u64| {
+    let mut divisors = (1..period).filter(|part| period.is_multiple_of(*part));
+    let least = divisors.find(|part| {
         let apart = orbits.with_period(*part).displacement(&point.at);
         apart.is_some_and(|apart| apart.iter().all(|part| part.abs() < REPEATS))
-    };
-    (1..period).filter(|part| period.is_multiple_of(*part)).find(repeats).unwrap_or(period)
+    });
+    least.unwrap_or(period)
 }
 
 /// The branch through an orbit, down to the lesser end first, and why it begins there.
@@ -206,25 +225,18 @@ fn both_directions<M: System<D>, const D: usize, const U: usize>(
     let mut rising = [0.0; U];
     rising[D] = 1.0;
     let ahead = tangent(first.rows, &rising).unwrap_or(rising);
-    let turned = |point: &OrbitPoint<M::Event, D, U>, ahead: [f64; U], sign: f64| OrbitPoint {
-        tangent: ahead.map(|part| sign * part),
-        ..point.clone()
-    };
-    let leaving = |start: OrbitPoint<_, D, U>, most: usize, goal: &OrbitPoint<_, D, U>| {
-        let mut half = HalfBranch::new(vec![start]);
-        half.follow(orbits, &mut control(request, orbits), most, &Goal::at(orbits, goal));
-        half
-    };
-    let start = turned(&first, ahead, -1.0);
-    let downward = leaving(start.clone(), most, &start);
+    let start = OrbitPoint { tangent: ahead.map(|part| -part), ..first.clone() };
+    let mut downward = HalfBranch::new(vec![start.clone()]);
+    downward.follow(orbits, &mut control(request, orbits), most, &Goal::at(orbits, &start));
     let end = downward.end;
     let Some(last) = downward.points.last().filter(|_| end != End::Closed) else {
         return (downward, end);
     };
     // A closed branch that is longer than one half meets the end of that half.
-    let goal = turned(last, last.tangent, -1.0);
+    let goal = OrbitPoint { tangent: last.tangent.map(|part| -part), ..last.clone() };
     let left = request.most_points + 1 - downward.points.len();
-    let upward = leaving(turned(&first, ahead, 1.0), left, &goal);
+    let mut upward = HalfBranch::new(vec![OrbitPoint { tangent: ahead, ..first }]);
+    upward.follow(orbits, &mut control(request, orbits), left, &Goal::at(orbits, &goal));
     let beginning = if upward.end == End::Closed { End::Closed } else { end };
     (joined(downward, upward), beginning)
 }

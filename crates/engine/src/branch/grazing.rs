@@ -5,7 +5,7 @@ use crate::orbit::matrix::solve;
 
 use super::SpecialKind;
 use super::arc::{Arc, Placed};
-use super::arclength::{CurvePoint, FARTHEST, between, corrected_by, dot, moved, norm};
+use super::arclength::{CurvePoint, FARTHEST, Guess, between, corrected_by, dot, moved, norm};
 use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 
 /// The orbit that just touches the surface lies so near to where contact was seen to begin.
@@ -106,11 +106,13 @@ fn with_margin<M: System<D>, const D: usize, const U: usize>(
     near: &OrbitPoint<M::Event, D, U>,
     value: f64,
 ) -> Option<OrbitPoint<M::Event, D, U>> {
-    let margin = |_: &[f64; U], seen: &Seen<M::Event, D, U>| {
-        let nearest = seen.margin?;
-        Some((nearest.value - value, nearest.gradient))
-    };
-    corrected_by(orbits, margin, (&near.at, FARTHEST), &near.tangent).map(|(point, _)| point)
+    let found = corrected_by(
+        orbits,
+        |_, seen| seen.margin.map(|nearest| (nearest.value - value, nearest.gradient)),
+        Guess { at: &near.at, farthest: FARTHEST },
+        &near.tangent,
+    );
+    found.map(|(point, _)| point)
 }
 
 /// A rigid grazing at which no step leads on, and the first orbit beyond it, if one is found.

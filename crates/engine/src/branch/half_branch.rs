@@ -233,23 +233,8 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         } else if let Some(closing) = goal.met(orbits, [from, &next], before) {
             (next, until, end) = (closing.clone(), closing, Some(End::Closed));
         }
-        let found = match self.sought {
-            Sought::Every(narrow) => match special_orbits_of_whole(orbits, from, &until, narrow) {
-                Ok(found) => found,
-                // No step is so short that a branch goes on beyond a jump.
-                Err(Flaw::Jump) if control.halve(0.0).is_some() => return Added::Halved,
-                Err(_) if control.halve(self.least).is_some() => return Added::Halved,
-                // Changes that a long step does not tell one by one may hide a jump.
-                Err(_)
-                    if self.is_coarse()
-                        && jumps_over(orbits, from, &until, narrow)
-                        && control.halve(0.0).is_some() =>
-                {
-                    return Added::Halved;
-                }
-                Err(_) => special_orbits_of_shortest(orbits, from, &until, narrow),
-            },
-            sought => special_orbits(orbits, from, &until, sought),
+        let Some(found) = self.located(orbits, control, from, &until) else {
+            return Added::Halved;
         };
         self.special_orbits.extend(found.into_iter().map(|special| (before, special)));
         if norm(&between(&from.at, &next.at)) > ONE {
@@ -258,6 +243,34 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         }
         // Steps no longer than rounding lead nowhere.
         Added::Ends(end.unwrap_or(End::Stopped))
+    }
+
+    /// The special orbits of a step that are sought; none where the step does not add up, and is halved.
+    fn located<M: System<D, Event = E>>(
+        &self,
+        orbits: &Orbits<M, D, U>,
+        control: &mut StepControl<U>,
+        from: &OrbitPoint<E, D, U>,
+        until: &OrbitPoint<E, D, U>,
+    ) -> Option<Vec<SpecialOrbit<E, D, U>>> {
+        let Sought::Every(narrow) = self.sought else {
+            return Some(special_orbits(orbits, from, until, self.sought));
+        };
+        let flaw = match special_orbits_of_whole(orbits, from, until, narrow) {
+            Ok(found) => return Some(found),
+            Err(flaw) => flaw,
+        };
+        // No step is so short that a branch goes on beyond a jump.
+        if flaw == Flaw::Jump && control.halve(0.0).is_some() || control.halve(self.least).is_some()
+        {
+            return None;
+        }
+        // Changes that a long step does not tell one by one may hide a jump.
+        let jumps = self.is_coarse() && jumps_over(orbits, from, until, narrow);
+        if jumps && control.halve(0.0).is_some() {
+            return None;
+        }
+        Some(special_orbits_of_shortest(orbits, from, until, narrow))
     }
 }
 

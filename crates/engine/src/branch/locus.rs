@@ -9,7 +9,7 @@ use super::arclength::{CurvePoint, Equations, Linear};
 use super::family::{Family, Passage, apart};
 use super::periodic::Periodic;
 use super::scales::seeded;
-use crate::orbit::extrema::{Extremum, nearest};
+use crate::orbit::extrema::nearest;
 
 /// The extremum that touches the surface moves in a step by no more than this share of a cycle.
 const SAME_EXTREMUM: f64 = 0.02;
@@ -64,10 +64,9 @@ impl<M: System<D>, const D: usize, const W: usize> Locus<M, D, W> {
         let point = std::array::from_fn(|i| seeded[i]);
         let Passage { end, extrema, impacts } = self.family.passage(point, &self.free(&seeded))?;
         let touch = nearest(&extrema).ok_or(Reason::NotFinite)?;
-        let away =
-            |other: &Extremum<Dual<f64, W>>| apart(touch.time, other.time, self.family.period);
         let others = extrema.iter().filter(|other| other.time != touch.time);
-        let alone = others.map(away).fold(f64::INFINITY, f64::min);
+        let away = others.map(|other| apart(touch.time, other.time, self.family.period));
+        let alone = away.fold(f64::INFINITY, f64::min);
         let seen = Touch { time: touch.time, alone, impacts };
         let left = touch.margin / Dual::splat(self.units[0]) - Dual::splat(self.margin);
         Ok((end, left, Some(seen)))
@@ -105,30 +104,33 @@ impl<M: System<D>, const D: usize, const W: usize> Locus<M, D, W> {
         });
         let point = std::array::from_fn(|i| seeded[i]);
         let Passage { end, .. } = self.family.passage(point, &self.free(&seeded))?;
-        let inside = |i: usize, part: fn(&Dual<f64, D>, usize) -> f64, j: usize| Dual {
-            value: part(&end[i].value, j),
-            gradient: end[i].gradient.map(|along| part(&along, j)),
-        };
         let m: [[Dual<f64, W>; D]; D] = std::array::from_fn(|i| {
             std::array::from_fn(|j| {
-                let slope = inside(i, |dual, j| dual.gradient[j], j);
+                let slope = part_of(&end[i], |dual| dual.gradient[j]);
                 let diagonal = if i == j { shift } else { 0.0 };
                 slope / Dual::splat(self.units[i]) + Dual::splat(diagonal)
             })
         });
         let determinant = expanded_determinant(&m, &std::array::from_fn::<usize, D, _>(|j| j));
-        Ok((std::array::from_fn(|i| inside(i, |dual, _| dual.value, 0)), determinant, None))
+        Ok((end.map(|it| part_of(&it, |dual| dual.value)), determinant, None))
     }
+}
+
+/// A part of a nested number, with its derivatives along the unknowns.
+fn part_of<const D: usize, const W: usize>(
+    nested: &Nested<D, W>,
+    part: impl Fn(&Dual<f64, D>) -> f64,
+) -> Dual<f64, W> {
+    Dual { value: part(&nested.value), gradient: nested.gradient.map(|along| part(&along)) }
 }
 
 impl<M: System<D>, const D: usize, const W: usize> Equations<W> for Locus<M, D, W> {
     type Seen = Option<Touch>;
 
     fn at(&self, at: &[f64; W]) -> Result<Linear<W, Option<Touch>>, Reason> {
-        let allowed = |(place, parameter): (usize, M::Parameter)| {
-            self.family.system.admits(parameter, at[place] * self.units[place])
-        };
-        if ![(D, self.free[0]), (D + 1, self.free[1])].into_iter().all(allowed) {
+        let mut free = self.free.into_iter().zip(D..);
+        let system = &self.family.system;
+        if !free.all(|(parameter, place)| system.admits(parameter, at[place] * self.units[place])) {
             return Err(Reason::NotFinite);
         }
         let (end, test, seen) = match self.kind {

@@ -36,10 +36,11 @@ pub fn merger<M: System<D>, const D: usize, const U: usize>(
     let first = orbits.halfway(&from.at)?;
     let arc = Arc::from(orbits, from);
     let ends = [from, to].map(|point| arc.place(point));
-    let is_before = |point: &OrbitPoint<M::Event, D, U>| {
-        orbits.halfway(&point.at).is_some_and(|apart| dot(&apart, &first) > 0.0)
-    };
-    let [last, _] = arc.change(ends.each_ref(), is_before, NARROW);
+    let [last, _] = arc.change(
+        ends.each_ref(),
+        |point| orbits.halfway(&point.at).is_some_and(|apart| dot(&apart, &first) > 0.0),
+        NARROW,
+    );
     if !is_merged(orbits, [&from.at, &last.1.at]) {
         return None;
     }

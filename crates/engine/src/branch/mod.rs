@@ -223,31 +223,42 @@ pub enum NotFollowed {
     NoParameter,
 }
 
+impl<O, P> Point<O, P> {
+    fn map<N, Q>(self, measured: &impl Fn(f64, O) -> N, held: &impl Fn(P) -> Q) -> Point<N, Q> {
+        Point {
+            measured: measured(self.parameter, self.measured),
+            parameter: self.parameter,
+            section: self.section.into_iter().map(held).collect(),
+            multipliers: self.multipliers,
+            residual: self.residual,
+            sequence: self.sequence,
+        }
+    }
+}
+
+impl<O, P> Special<O, P> {
+    fn map<N, Q>(self, measured: &impl Fn(f64, O) -> N, held: &impl Fn(P) -> Q) -> Special<N, Q> {
+        let Special { kind, after, point, curve } = self;
+        Special { kind, after, point: point.map(measured, held), curve }
+    }
+}
+
+impl<O, P> Branch<O, P> {
+    fn map<N, Q>(self, measured: &impl Fn(f64, O) -> N, held: &impl Fn(P) -> Q) -> Branch<N, Q> {
+        Branch {
+            period: self.period,
+            parent: self.parent,
+            points: self.points.into_iter().map(|it| it.map(measured, held)).collect(),
+            special: self.special.into_iter().map(|it| it.map(measured, held)).collect(),
+            ends: self.ends,
+        }
+    }
+}
+
 impl<O, P> Found<O, P> {
     /// The same with something else that is `measured` of each orbit, and section points `held` in another way.
     pub fn map<N, Q>(self, measured: impl Fn(f64, O) -> N, held: impl Fn(P) -> Q) -> Found<N, Q> {
-        let point = |it: Point<O, P>| Point {
-            measured: measured(it.parameter, it.measured),
-            parameter: it.parameter,
-            section: it.section.into_iter().map(&held).collect(),
-            multipliers: it.multipliers,
-            residual: it.residual,
-            sequence: it.sequence,
-        };
-        let special = |it: Special<O, P>| Special {
-            kind: it.kind,
-            after: it.after,
-            point: point(it.point),
-            curve: it.curve,
-        };
-        let branch = |it: Branch<O, P>| Branch {
-            period: it.period,
-            parent: it.parent,
-            points: it.points.into_iter().map(point).collect(),
-            special: it.special.into_iter().map(special).collect(),
-            ends: it.ends,
-        };
-        let branches = self.branches.into_iter().map(branch).collect();
+        let branches = self.branches.into_iter().map(|it| it.map(&measured, &held)).collect();
         Found { branches, curves: self.curves, not_left: self.not_left }
     }
 }

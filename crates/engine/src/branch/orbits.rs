@@ -101,20 +101,21 @@ impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
     /// The unknowns at every section point of an orbit, in order.
     pub fn section_points(&self, at: &[f64; U]) -> Vec<[f64; U]> {
         let once = self.with_period(1);
-        let next = |at: &[f64; U]| {
+        let points = std::iter::successors(Some(*at), |at| {
             let step = once.displacement(at)?;
             Some(std::array::from_fn(|i| at[i] + step.get(i).unwrap_or(&0.0)))
-        };
-        std::iter::successors(Some(*at), next).take(self.family.period as usize).collect()
+        });
+        points.take(self.family.period as usize).collect()
     }
 
     /// Whether a cycle of an autonomous orbit takes nearly as long as it may, or to rounding too long.
     pub fn takes_longest(&self, point: &OrbitPoint<M::Event, D, U>) -> bool {
-        let longest = || {
-            self.family
-                .longest_cycle(self.section(&point.at), &[(self.along, self.parameter(&point.at))])
-        };
-        M::Single::AUTONOMOUS && longest().is_none_or(|longest| longest > LONGEST)
+        if !M::Single::AUTONOMOUS {
+            return false;
+        }
+        let free = [(self.along, self.parameter(&point.at))];
+        let longest = self.family.longest_cycle(self.section(&point.at), &free);
+        longest.is_none_or(|longest| longest > LONGEST)
     }
 }
 
@@ -165,26 +166,28 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<'_, M
             rows[i][D] = passage.by_parameter[i] / self.units[i];
             rows[i][i] -= 1.0;
         }
-        let in_unit = |part: f64| part / self.units[0];
+        let unit = self.units[0];
         let margin = passage.margin.map(|margin| {
-            let mut gradient = [in_unit(margin.by_parameter); U];
-            gradient[..D].copy_from_slice(&margin.gradient.map(in_unit));
-            Dual { value: in_unit(margin.value), gradient }
+            let mut gradient = [margin.by_parameter / unit; U];
+            gradient[..D].copy_from_slice(&margin.gradient.map(|part| part / unit));
+            Dual { value: margin.value / unit, gradient }
         });
         let excursion = passage.excursion / system.metric().size(&self.section(&[1.0; U]));
-        let margins = passage.margins.into_iter().map(|(time, it)| (time, in_unit(it))).collect();
+        let margins = passage.margins.into_iter().map(|(time, it)| (time, it / unit)).collect();
         let seen = Seen { jacobian, events: cyclic(&passage.events), margin, margins, excursion };
         Ok(Linear { residual, rows, seen })
     }
 
     fn belongs(&self, from: &CurvePoint<U, Self::Seen>, met: &CurvePoint<U, Self::Seen>) -> bool {
-        let orientation = |it: &CurvePoint<U, Self::Seen>| {
-            it.tangent[D] * determinant(shifted(&it.seen.jacobian, -1.0))
-        };
         let turns = self.oriented && orientation(from) * orientation(met) < 0.0;
         let vanishes = met.seen.excursion <= SMALLEST;
         !met.seen.is_steep(1.0) && !turns && !vanishes && self.is_whole(&met.at)
     }
+}
+
+/// What keeps its sign along a branch of a continuous map.
+fn orientation<E, const D: usize, const U: usize>(point: &OrbitPoint<E, D, U>) -> f64 {
+    point.tangent[D] * determinant(shifted(&point.seen.jacobian, -1.0))
 }
 
 impl<E: Event, const D: usize, const U: usize> Seen<E, D, U> {

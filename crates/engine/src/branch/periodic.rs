@@ -32,17 +32,16 @@ pub trait Periodic<const D: usize, const U: usize>: Equations<U> + Sized {
 
     /// Whether an orbit repeats after no part of its period.
     fn is_whole(&self, at: &[f64; U]) -> bool {
-        let repeats = |parts: u64| {
+        let mut divisors = (2..=self.period()).filter(|parts| self.is_prime_divisor(*parts));
+        !divisors.any(|parts| {
             let apart = self.with_period(self.period() / parts).displacement(at);
             apart.is_some_and(|apart| norm(&apart) <= HALVES)
-        };
-        !(2..=self.period()).filter(|parts| self.is_prime_divisor(*parts)).any(repeats)
+        })
     }
 
     /// Whether a number is a prime divisor of the period.
     fn is_prime_divisor(&self, number: u64) -> bool {
-        let divides = |part: u64, of: u64| of.is_multiple_of(part);
-        divides(number, self.period()) && !(2..number).any(|part| divides(part, number))
+        self.period().is_multiple_of(number) && !(2..number).any(|part| number.is_multiple_of(part))
     }
 
     /// Whether between two orbits of an even period the curve passes one of half the period: what follows
@@ -126,9 +125,9 @@ impl<const U: usize, T: Clone> Goal<U, T> {
         steps: usize,
     ) -> Option<CurvePoint<U, T>> {
         let ahead = between(&from.at, &to.at);
-        let here = |goal: &&CurvePoint<U, T>| {
+        let met = self.0.iter().find(|goal| {
             dot(&goal.tangent, &ahead) > 0.0 && passes(equations, [&from.at, &to.at], &goal.at)
-        };
-        self.0.iter().find(here).filter(|_| steps >= LEAST_STEPS).cloned()
+        });
+        met.filter(|_| steps >= LEAST_STEPS).cloned()
     }
 }

@@ -9,7 +9,8 @@ use crate::lane::Dual;
 /// the system expects of its motion at the ends of the range.
 pub fn units<M: System<D>, const D: usize>(
     system: &M,
-    (along, range): (M::Parameter, [f64; 2]),
+    along: M::Parameter,
+    range: [f64; 2],
     first: &[[f64; D]],
 ) -> [f64; D] {
     let metric = system.metric();

@@ -1,7 +1,7 @@
 //! Steps along a curve of solutions: as long as its bends allow, and no farther than its bounds.
 
 use super::arclength::{
-    CurvePoint, Equations, FARTHEST, Plane, between, corrected_within, dot, moved, norm,
+    CurvePoint, Equations, FARTHEST, Guess, Plane, between, corrected_within, dot, moved, norm,
 };
 
 /// Usually a shorter step, relative to the longest, is none.
@@ -137,7 +137,7 @@ impl<const U: usize> StepControl<U> {
         let farthest = FARTHEST.min(ASTRAY * self.correction(length));
         if self.bounds.passed(&from.at, &predicted).is_none() {
             let plane = Plane::through(&predicted, from.tangent);
-            let guess = (&predicted, farthest);
+            let guess = Guess { at: &predicted, farthest };
             let (met, taken) = corrected_within(equations, &plane, guess, &from.tangent)?;
             if !self.is_near(from, &predicted, &met, length) || !equations.belongs(from, &met) {
                 return None;
@@ -149,7 +149,8 @@ impl<const U: usize> StepControl<U> {
         let (unknown, bound, share) = self.bounds.passed(&from.at, &predicted)?;
         let guess = moved(&from.at, share * length, &from.tangent);
         let plane = Plane::fixing(unknown, bound);
-        let reached = corrected_within(equations, &plane, (&guess, farthest), &from.tangent);
+        let begins = Guess { at: &guess, farthest };
+        let reached = corrected_within(equations, &plane, begins, &from.tangent);
         let (mut met, taken) = reached?;
         met.at[unknown] = bound;
         let near = self.is_near(from, &guess, &met, length) && equations.belongs(from, &met);

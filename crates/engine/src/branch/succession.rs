@@ -29,7 +29,7 @@ pub fn segment<M: System<D>, const D: usize>(
     from: (f64, &[[f64; D]]),
     to: f64,
 ) -> Option<Segment<[f64; D]>> {
-    segment_of(integrator, along, from, (to, 0))
+    segment_of(integrator, along, from, to, 0)
 }
 
 /// The way of an attractor that begins with a periodic orbit, see [`segment`]: where the orbit doubles its period, it goes on
@@ -44,54 +44,41 @@ pub fn succession<M: System<D>, const D: usize>(
     from: (f64, &[[f64; D]]),
     to: f64,
 ) -> Option<Segment<[f64; D]>> {
-    segment_of(integrator, along, from, (to, CHANGES_OF_PERIOD))
+    segment_of(integrator, along, from, to, CHANGES_OF_PERIOD)
 }
 
 fn segment_of<M: System<D>, const D: usize>(
     integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
     from: (f64, &[[f64; D]]),
-    to: (f64, usize),
+    to: f64,
+    changes: usize,
 ) -> Option<Segment<[f64; D]>> {
     if !along.system.has(along.parameter) {
         return None;
     }
+    let limited = Limited::to(CYCLES, integrator);
     match const { D } {
-        1 => segment_with::<M, D, 2>(integrator, along, from, to),
-        2 => segment_with::<M, D, 3>(integrator, along, from, to),
-        3 => segment_with::<M, D, 4>(integrator, along, from, to),
-        4 => segment_with::<M, D, 5>(integrator, along, from, to),
-        5 => segment_with::<M, D, 6>(integrator, along, from, to),
-        6 => segment_with::<M, D, 7>(integrator, along, from, to),
+        1 => segment_with::<M, D, 2>(&limited, along, from, to, changes),
+        2 => segment_with::<M, D, 3>(&limited, along, from, to, changes),
+        3 => segment_with::<M, D, 4>(&limited, along, from, to, changes),
+        4 => segment_with::<M, D, 5>(&limited, along, from, to, changes),
+        5 => segment_with::<M, D, 6>(&limited, along, from, to, changes),
+        6 => segment_with::<M, D, 7>(&limited, along, from, to, changes),
         _ => panic!("a section has one to six coordinates, not {D}"),
     }
 }
 
 fn segment_with<M: System<D>, const D: usize, const U: usize>(
-    integrator: &dyn Integrator<M, D>,
+    limited: &Limited<'_, M, D>,
     along: &Along<M, D>,
-    (from, points): (f64, &[[f64; D]]),
-    (to, changes): (f64, usize),
+    from: (f64, &[[f64; D]]),
+    to: f64,
+    changes: usize,
 ) -> Option<Segment<[f64; D]>> {
-    let Along { system, parameter, tolerance } = along;
-    let family =
-        Family { system: system.clone(), period: points.len() as u64, tolerance: *tolerance };
-    let range = [from.min(to), from.max(to)];
-    let width = range[1] - range[0];
-    let section = units(system, (*parameter, range), points);
-    let units: [f64; U] = std::array::from_fn(|i| *section.get(i).unwrap_or(&width));
-    let along = *parameter;
-    let limited = &Limited::to(CYCLES, integrator);
-    let orbits =
-        Orbits { family, integrator: limited, along, units, oriented: true, exact: ROUNDING };
     let sought = if changes > 0 { Sought::Every(COARSE) } else { Sought::Shown(COARSE) };
-    let mut walk = Walk { orbits, from, to, sought, limited };
-    let section = points.first()?;
-    let start = walk.start(section)?;
-    // Section and parameter count alike, or a fold is a bend too sharp for steps of the parameter's length.
-    let moves = norm(&start.tangent.map(|part| part / start.tangent[D])).powi(2) - 1.0;
-    walk.orbits.units[D] = width / moves.sqrt().clamp(LEAST_MOVE, 1.0);
-    let start = walk.start(section)?;
+    let mut walk = walk_from::<M, D, U>(limited, along, from, to, sought)?;
+    let start = walk.start(from.1.first()?)?;
     let (mut found, mut onward) = walk.segment(start);
     for _ in 0..changes {
         let Some(begun) = onward.map(|it| it.begin(&walk)) else { return Some(found) };
@@ -107,4 +94,31 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
         found.end = SegmentEnd::Lost;
     }
     Some(found)
+}
+
+/// The way from an orbit to another value, in units in which section and parameter count alike: or a fold is a bend too sharp for
+/// steps of the parameter's length.
+fn walk_from<'a, M: System<D>, const D: usize, const U: usize>(
+    limited: &'a Limited<'a, M, D>,
+    along: &Along<M, D>,
+    from: (f64, &[[f64; D]]),
+    to: f64,
+    sought: Sought,
+) -> Option<Walk<'a, M, D, U>> {
+    let Along { system, parameter, tolerance } = along;
+    let (value, points) = from;
+    let family =
+        Family { system: system.clone(), period: points.len() as u64, tolerance: *tolerance };
+    let range = [value.min(to), value.max(to)];
+    let width = range[1] - range[0];
+    let section = units(system, *parameter, range, points);
+    let units: [f64; U] = std::array::from_fn(|i| *section.get(i).unwrap_or(&width));
+    let along = *parameter;
+    let orbits =
+        Orbits { family, integrator: limited, along, units, oriented: true, exact: ROUNDING };
+    let mut walk = Walk { orbits, from: value, to, sought, limited };
+    let start = walk.start(points.first()?)?;
+    let moves = norm(&start.tangent.map(|part| part / start.tangent[D])).powi(2) - 1.0;
+    walk.orbits.units[D] = width / moves.sqrt().clamp(LEAST_MOVE, 1.0);
+    Some(walk)
 }

@@ -6,7 +6,7 @@ use super::SpecialKind;
 use super::arc::{Arc, NARROW};
 use super::arclength::{between, dot, norm};
 use super::family::counterpart;
-use super::orbits::{OrbitPoint, Orbits, SpecialOrbit};
+use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 use super::periodic::Periodic;
 use super::special::{
     CHANGES, Change, OnArc, RESOLVED, SMOOTH, Sought, special_orbits, test, turns,
@@ -82,13 +82,13 @@ pub fn special_orbits_of_shortest<M: System<D>, const D: usize, const U: usize>(
     let exact = orbits.exactly();
     let step = WholeStep::of(&exact, [from, to], narrow);
     let ends = step.ends.each_ref();
-    let is_missing = |kind: &SpecialKind| {
-        test(*kind, from) * test(*kind, to) < 0.0
-            && found.iter().all(|it| it.kind != *kind)
-            && (*kind != SpecialKind::Fold || step.is_known(ends, to))
-    };
+    let mut missing = SMOOTH.iter().filter(|kind| {
+        test(**kind, from) * test(**kind, to) < 0.0
+            && found.iter().all(|it| it.kind != **kind)
+            && (**kind != SpecialKind::Fold || step.is_known(ends, to))
+    });
     let is_silent = found.is_empty() && changes_stability(orbits, from, to);
-    if is_silent || !has_changed && SMOOTH.iter().any(is_missing) {
+    if is_silent || !has_changed && missing.next().is_some() {
         let uncertainty = norm(&between(&from.at, &to.at));
         let (kind, distance, point) = (SpecialKind::Unresolved, 0.5 * uncertainty, to.clone());
         let is_stable_beyond = to.seen.is_stable();
@@ -127,16 +127,19 @@ fn changes_stability<M: System<D>, const D: usize, const U: usize>(
     from: &OrbitPoint<M::Event, D, U>,
     to: &OrbitPoint<M::Event, D, U>,
 ) -> bool {
-    let beyond = |point: &OrbitPoint<M::Event, D, U>| {
-        let moduli = point.seen.multipliers().map(|it| it.abs());
-        let is_clear = moduli.iter().all(|modulus| (modulus - 1.0).abs() > ON_CIRCLE);
-        is_clear.then(|| moduli.iter().filter(|modulus| **modulus > 1.0).count())
-    };
-    let is_other = beyond(from).zip(beyond(to)).is_some_and(|(from, to)| from != to);
-    let is_far = |point: &OrbitPoint<M::Event, D, U>| {
-        orbits.halfway(&point.at).is_none_or(|apart| norm(&apart) > BESIDE)
-    };
-    is_other && is_far(from) && is_far(to)
+    let beyond = beyond_circle(&from.seen).zip(beyond_circle(&to.seen));
+    let is_other = beyond.is_some_and(|(from, to)| from != to);
+    is_other
+        && [from, to]
+            .into_iter()
+            .all(|point| orbits.halfway(&point.at).is_none_or(|apart| norm(&apart) > BESIDE))
+}
+
+/// How many multipliers lie beyond the unit circle; none where rounding may decide it.
+fn beyond_circle<E: Event, const D: usize, const U: usize>(seen: &Seen<E, D, U>) -> Option<usize> {
+    let moduli = seen.multipliers().map(|it| it.abs());
+    let is_clear = moduli.iter().all(|modulus| (modulus - 1.0).abs() > ON_CIRCLE);
+    is_clear.then(|| moduli.iter().filter(|modulus| **modulus > 1.0).count())
 }
 
 /// A step with the arc on which its orbits lie.
@@ -229,8 +232,9 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
         point: &OrbitPoint<M::Event, D, U>,
     ) -> bool {
         let slopes = ends.map(|it| test(SpecialKind::Fold, &it.1).abs());
-        let is_known = |apart: [f64; D]| slopes[0].max(slopes[1]) * dot(&apart, &apart) > ROUNDING;
-        self.orbits.halfway(&point.at).is_none_or(is_known)
+        let steepest = slopes[0].max(slopes[1]);
+        let apart = self.orbits.halfway(&point.at);
+        apart.is_none_or(|apart| steepest * dot(&apart, &apart) > ROUNDING)
     }
 
     /// Those of a part on which the events are the same.
@@ -300,10 +304,11 @@ impl<'a, E: Event, const D: usize, const U: usize> SmoothPart<'a, E, D, U> {
             return false;
         }
         let [first, middle, last] = self.places.map(|it| &it.1.seen.margins[..]);
-        let same = |here, there| counterpart(here, [middle, there], period);
-        middle.iter().all(|here| match (same(here, first), same(here, last)) {
-            (Some((_, first)), Some((_, last))) => does_not_cross(&[first, here.1, last]),
-            _ => true,
+        middle.iter().all(|here| {
+            match [first, last].map(|there| counterpart(here, [middle, there], period)) {
+                [Some((_, first)), Some((_, last))] => does_not_cross(&[first, here.1, last]),
+                _ => true,
+            }
         })
     }
 }

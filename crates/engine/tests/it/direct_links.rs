@@ -59,7 +59,7 @@ fn a_branch_that_is_said_to_lead_straight_on_does() {
                 continue;
             }
             let linear =
-                |value: f64, orbit: &Orbit| linearised(&OneByOne, &along, (value, &points(orbit)));
+                |value: f64, orbit: &Orbit| linearised(&OneByOne, &along, value, &points(orbit));
             let (Some(a), Some(b)) = (linear(values[0], orbit), linear(values[1], other)) else {
                 continue;
             };

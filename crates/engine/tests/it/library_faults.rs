@@ -165,7 +165,7 @@ fn a_parameter_that_a_system_does_not_have_is_an_error() {
         let points = &orbit.section[..1];
         [
             segment(&OneByOne, &along, (1.5, points), 1.55).is_some(),
-            linearised(&OneByOne, &along, (1.5, points)).is_some(),
+            linearised(&OneByOne, &along, 1.5, points).is_some(),
         ]
     };
     assert_eq!([known("w"), known("omega")], [[true; 2], [false; 2]]);
