@@ -10,7 +10,7 @@ mod parameter_file;
 pub use identified::{Constant, Given, Identified, Other, Test};
 pub use parameter_file::parameter_file;
 
-use super::estimate::significant;
+use super::estimate::{Estimate, significant};
 use super::free_vibration::{FreeVibration, free_vibration};
 use super::friction::{Coasting, CoastingTests, Stribeck, V_S, coasting, static_friction};
 use super::line::{Line, Outlier, hysteresis, line, outliers};
@@ -73,8 +73,9 @@ pub fn impossible_rows(test: Test, recording: &Recording) -> Vec<(usize, String)
         _ => return Vec::new(),
     };
     let columns: Vec<&[f64]> = recording.columns.iter().map(|(_, values)| &values[..]).collect();
-    let is_wrong = |row: &usize| columns.iter().any(|values| values[*row] <= 0.0);
-    (0..recording.rows()).filter(is_wrong).map(|row| (row, why.to_owned())).collect()
+    let rows = 0..recording.rows();
+    let wrong = rows.filter(|&row| columns.iter().any(|values| values[row] <= 0.0));
+    wrong.map(|row| (row, why.to_owned())).collect()
 }
 
 /// What is said of a value that no rig can have.
@@ -114,23 +115,32 @@ fn of_free_vibration(
     given: &Given,
 ) -> Result<(Vec<Identified>, Evidence), String> {
     let found = free_vibration(recording.required("t"), recording.required("r"), given.m1)?;
-    let apart = found.disagreement();
-    let identified = |i: usize, parameter: Parameter| Identified {
+    let parameters = [Parameter::K1, Parameter::C].into_iter().enumerate();
+    let all = parameters.map(|(i, parameter)| of_decay(recording, &found, i, parameter));
+    Ok((all.collect(), Evidence::Decay(Box::new(found))))
+}
+
+/// The stiffness (0) or the damping (1) of a decay.
+fn of_decay(
+    recording: &Recording,
+    found: &FreeVibration,
+    which: usize,
+    parameter: Parameter,
+) -> Identified {
+    Identified {
         constant: Constant::Parameter(parameter),
-        estimate: found.by_decay[i],
+        estimate: found.by_decay[which],
         verdict: Verdict::Determined,
         method: "least squares on the whole decay",
         source: recording.source.clone(),
         other: Some(Other {
             method: "logarithmic decrement",
-            estimate: found.by_decrement[i],
-            disagreement: Some(apart[i]),
+            estimate: found.by_decrement[which],
+            disagreement: Some(found.disagreement()[which]),
             bias: None,
         }),
-        notes: notes_of_decay(recording, &found, i),
-    };
-    let all = vec![identified(0, Parameter::K1), identified(1, Parameter::C)];
-    Ok((all, Evidence::Decay(Box::new(found))))
+        notes: notes_of_decay(recording, found, which),
+    }
 }
 
 /// What must be known of the stiffness (0) or the damping (1) of a decay.
@@ -228,30 +238,38 @@ fn of_coasting(
 ) -> Result<(Vec<Identified>, Evidence), String> {
     let [speeds, distances] = ["v", "d"].map(|name| recording.required(name));
     let found = coasting(&CoastingTests { speeds, distances, g: given.g })?;
-    let (second, first) = (&found.by_coast_down, &found.by_initial_speed);
-    let identified = |i: usize, parameter: Parameter| {
-        let of = |law: &Stribeck| [law.mu_d, law.v_s][i];
-        let mut notes: Vec<String> = ambiguity(parameter, second, i).into_iter().collect();
-        if i == 0 {
-            notes.extend(found.misfits.iter().cloned());
-        }
-        Identified {
-            constant: Constant::Parameter(parameter),
-            estimate: of(second),
-            verdict: second.verdicts[i],
-            method: "distances of the coast-down under the Coulomb-Stribeck law",
-            source: recording.source.clone(),
-            other: Some(Other {
-                method: "v^2/(2 g d) at the initial speed, Eq. (2)",
-                estimate: of(first),
-                disagreement: None,
-                bias: Some(EQ_2_BIAS),
-            }),
-            notes,
-        }
-    };
-    let all = vec![identified(0, Parameter::MuD), identified(1, Parameter::Vs)];
-    Ok((all, Evidence::Coasting(Box::new(found))))
+    let parameters = [Parameter::MuD, Parameter::Vs].into_iter().enumerate();
+    let all = parameters.map(|(i, parameter)| of_law(recording, &found, i, parameter));
+    Ok((all.collect(), Evidence::Coasting(Box::new(found))))
+}
+
+/// The dynamic friction coefficient (0) or the Stribeck velocity (1) of coasting tests.
+fn of_law(
+    recording: &Recording,
+    found: &Coasting,
+    which: usize,
+    parameter: Parameter,
+) -> Identified {
+    let law = &found.by_coast_down;
+    let [second, first] = [law, &found.by_initial_speed].map(|law| [law.mu_d, law.v_s][which]);
+    let mut notes: Vec<String> = ambiguity(parameter, law, which).into_iter().collect();
+    if which == 0 {
+        notes.extend(found.misfits.iter().cloned());
+    }
+    Identified {
+        constant: Constant::Parameter(parameter),
+        estimate: second,
+        verdict: law.verdicts[which],
+        method: "distances of the coast-down under the Coulomb-Stribeck law",
+        source: recording.source.clone(),
+        other: Some(Other {
+            method: "v^2/(2 g d) at the initial speed, Eq. (2)",
+            estimate: first,
+            disagreement: None,
+            bias: Some(EQ_2_BIAS),
+        }),
+        notes,
+    }
 }
 
 /// The separate ranges of a parameter of friction that agree with the tests, where there are several.
@@ -269,20 +287,23 @@ fn ambiguity(parameter: Parameter, law: &Stribeck, which: usize) -> Option<Strin
         Parameter::Vs => (V_S, " m/s"),
         _ => ([0.0, f64::INFINITY], ""),
     };
-    let range = |&[least, greatest]: &[f64; 2]| {
-        let [from, to] = [least, greatest].map(|it| significant(it, 3));
-        match (least <= bounds[0] * 1.000_001, greatest >= bounds[1] * 0.999_999) {
-            (true, _) => format!("below {to}{unit}"),
-            (_, true) => format!("above {from}{unit}"),
-            _ => format!("{from} to {to}{unit}"),
-        }
-    };
-    let ranges: Vec<String> = law.ranges[which].iter().map(range).collect();
+    let ranges: Vec<String> =
+        law.ranges[which].iter().map(|range| range_in_words(*range, bounds, unit)).collect();
     Some(format!(
         "{symbol} may be {}: over these speeds a small v_s describes the tests as well as a large one with half the mu_d; tests over more \
          speeds tell them apart",
         ranges.join(" or ")
     ))
+}
+
+/// A range, which may end at a bound within which it was looked for.
+fn range_in_words([least, greatest]: [f64; 2], bounds: [f64; 2], unit: &str) -> String {
+    let [from, to] = [least, greatest].map(|it| significant(it, 3));
+    match (least <= bounds[0] * 1.000_001, greatest >= bounds[1] * 0.999_999) {
+        (true, _) => format!("below {to}{unit}"),
+        (_, true) => format!("above {from}{unit}"),
+        _ => format!("{from} to {to}{unit}"),
+    }
 }
 
 fn of_motor(recording: &Recording) -> Result<(Vec<Identified>, Evidence), String> {
@@ -333,12 +354,9 @@ fn notes_of_motor(line: &Line, forces: &[f64], largest: f64) -> Vec<String> {
 
 /// Notes that concern several constants together.
 pub fn remarks(all: &[Identified]) -> Vec<String> {
-    let of = |parameter| {
-        let is_it = |it: &&Identified| it.constant == Constant::Parameter(parameter);
-        let found = all.iter().find(is_it).filter(|it| it.verdict == Verdict::Determined)?;
-        Some(found.estimate)
-    };
-    let (Some(mu_s), Some(mu_d)) = (of(Parameter::MuS), of(Parameter::MuD)) else {
+    let [Some(mu_s), Some(mu_d)] =
+        [Parameter::MuS, Parameter::MuD].map(|parameter| determined(all, parameter))
+    else {
         return Vec::new();
     };
     if mu_s.value >= 2.0 * mu_d.value {
@@ -350,4 +368,10 @@ pub fn remarks(all: &[Identified]) -> Vec<String> {
         mu_s.value,
         2.0 * mu_d.value
     )]
+}
+
+/// The estimate of a parameter, if it is determined.
+fn determined(all: &[Identified], parameter: Parameter) -> Option<Estimate> {
+    let found = all.iter().find(|it| it.constant == Constant::Parameter(parameter))?;
+    (found.verdict == Verdict::Determined).then_some(found.estimate)
 }
