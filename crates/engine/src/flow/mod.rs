@@ -8,6 +8,7 @@ pub mod motion;
 pub mod observer;
 mod pace;
 mod step;
+mod step_end;
 pub mod stop;
 pub mod switched;
 pub mod system;

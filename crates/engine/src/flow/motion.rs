@@ -7,6 +7,7 @@ use crate::lane::{Lane, Mask, Series, SideBySide, series};
 use super::guard::{divide_by_time, first_fall, stays_positive};
 use super::pace::longest_step;
 use super::step::Step;
+use super::step_end::StepEnd;
 use super::stop;
 use super::switched::{MAX_GUARDS, Switched, Zeros};
 
@@ -131,11 +132,25 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let idles = length.le(until * L::splat(STANDSTILL)) & length.lt(left);
         self.idle = L::select(idles, self.idle + L::splat(1.0), L::splat(0.0));
         self.idle = L::select(end.unknown, L::splat(f64::INFINITY), self.idle);
-        step.event = end.switch(system, self);
+        step.event = self.switch(system, &end);
         step.arrives = if S::AUTONOMOUS { self.pass_section(&end) } else { until.le(self.time) };
     }
 
-    /// The same, compiled once for each kind of number: what is not followed side by side takes its steps here.
+    /// Obeys the guard that ends the step; returns the kind of event.
+    #[inline(always)]
+    fn switch(&mut self, system: &S, end: &StepEnd<L>) -> L {
+        let mut event = L::splat(0.0);
+        for which in 0..S::GUARDS {
+            let due = end.is_due(which);
+            if due.any() {
+                let Motion { mode, state, zeros, .. } = self;
+                event = event + system.switch(which, due, mode, state, zeros, self.time);
+            }
+        }
+        event
+    }
+
+    /// A step as [`Motion::step`] takes it, compiled once for each kind of number: what is not followed side by side takes its steps here.
     #[inline(never)]
     pub fn single_step(&mut self, system: &S, until: L, tolerance: f64, step: &mut Step<L, S>) {
         self.step(system, until, tolerance, step);
@@ -359,44 +374,5 @@ where
         self.zeros.take_lane(index, &other.zeros);
         self.idle = self.idle.with_lane_of(index, other.idle);
         self.side = self.side.with_lane_of(index, other.side);
-    }
-}
-
-/// Where a step ends, and which guard ends it (-1 for none).
-struct StepEnd<L: Lane> {
-    length: L::Plain,
-    guard: L::Plain,
-    /// The same length as the root that it is, where a guard falls.
-    root: L,
-    /// Where a guard is no finite number, so that nothing is known of where it falls.
-    unknown: L::Mask,
-}
-
-impl<L: Lane> StepEnd<L> {
-    /// Where a guard ends the step.
-    #[inline(always)]
-    fn falls(&self) -> L::Mask {
-        L::Plain::splat(-0.5).lt(self.guard)
-    }
-
-    /// Where this guard ends the step.
-    #[inline(always)]
-    fn is_due(&self, which: usize) -> L::Mask {
-        let away = self.guard - L::Plain::splat(which as f64);
-        away.abs().lt(L::Plain::splat(0.5))
-    }
-
-    /// Obeys the guard that ended the step; returns the kind of event.
-    #[inline(always)]
-    fn switch<S: Switched<L>>(&self, system: &S, motion: &mut Motion<L, S>) -> L {
-        let mut event = L::splat(0.0);
-        for which in 0..S::GUARDS {
-            let due = self.is_due(which);
-            if due.any() {
-                let Motion { mode, state, zeros, .. } = motion;
-                event = event + system.switch(which, due, mode, state, zeros, motion.time);
-            }
-        }
-        event
     }
 }
