@@ -231,9 +231,9 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             for which in 0..Step::<L, S>::GUARDS {
                 let due = end.is_due(which);
                 if due.any() {
-                    self.write_guard(system, step, which);
-                    let root = L::root(end.length, &step.guards[which]);
-                    end.root = L::select(due, root, end.root);
+                    let guard = &mut step.guards[0];
+                    self.write_guard(system, which, &step.jet, guard);
+                    end.root = L::select(due, L::root(end.length, guard), end.root);
                 }
             }
         }
@@ -242,13 +242,12 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
 
     /// Writes a guard with its derivatives, its known zeros divided out.
     #[inline(always)]
-    fn write_guard(&self, system: &S, step: &mut Step<L, S>, which: usize) {
-        let guard = &mut step.guards[which];
+    fn write_guard(&self, system: &S, which: usize, jet: &S::Jet, guard: &mut Series<L>) {
         if S::AUTONOMOUS && which == S::GUARDS {
-            system.section(&step.jet, guard);
+            system.section(jet, guard);
             guard.iter_mut().for_each(|term| *term = self.side * *term);
         } else {
-            system.guard(which, &self.mode, &step.jet, guard);
+            system.guard(which, &self.mode, jet, guard);
         }
         self.divide_by_zeros(which, guard);
     }
@@ -296,7 +295,9 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
                 continue;
             }
             let Step { jet, guards, plain_guards, .. } = step;
-            let (guard, plain) = (&mut guards[which], &mut plain_guards[which]);
+            // Of numbers with derivatives the guards without them are kept, and one room serves all: caches are small.
+            let place = if const { L::PARTS > 1 } { 0 } else { which };
+            let (guard, plain) = (&mut guards[place], &mut plain_guards[which]);
             let guard = if is_section {
                 system.section(jet, guard);
                 self.turn_to_section(guard, length);

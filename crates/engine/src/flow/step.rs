@@ -19,8 +19,9 @@ pub struct Step<L: Lane, S: Switched<L>> {
     pub event: L,
     /// Whether a cycle ends with it.
     pub arrives: L::Mask,
+    /// The guards of numbers without derivatives; of others the first place is room for one.
     pub(super) guards: [Series<L>; MAX_GUARDS],
-    /// The same without derivatives, where they have any.
+    /// The guards without derivatives of numbers that have some.
     pub(super) plain_guards: [Series<L::Plain>; MAX_GUARDS],
     pub(super) chosen: Series<L::Plain>,
 }
