@@ -21,9 +21,12 @@ find src crates/*/src -name '*.rs' 2>/dev/null | sort | xargs awk '
         sub(/^src\//, "", part)
         sub(/[\/.].*/, "", part)
         in_tests = 0
+        of_tests = 0
         end = ""
     }
-    /^#\[cfg\(test\)\]/ { in_tests = 1 }
+    # A module of tests that stands in the file; one in a file of its own is a line here.
+    /^#\[cfg\((all\()?test/ { of_tests = FNR }
+    /^mod [a-z_]+ \{$/ && of_tests == FNR - 1 { in_tests = 1 }
     in_tests { next }
     end == "" && /^ *(pub(\([a-z]+\))? )?(const )?fn / {
         match($0, /^ */)

@@ -81,6 +81,9 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             } else {
                 motion.step(system, time, 1.0, &mut step);
             }
+            if !step.switches.any() {
+                break;
+            }
         }
         motion.face_section(system, &mut step);
         motion
@@ -88,8 +91,8 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
 
     /// The same before the guards that are due at the start are obeyed.
     ///
-    /// [`MAX_GUARDS`] steps to the same time and [`Motion::face_section`] make it a new motion; a loop takes them with
-    /// the step that it has, as a copy of it for lanes with derivatives takes long to compile.
+    /// Steps to the same time, until one obeys no guard or [`MAX_GUARDS`] are taken, and [`Motion::face_section`] make it a new
+    /// motion; a loop takes them with the step that it has, as a copy of it for lanes with derivatives takes long to compile.
     pub fn begun(system: &S, time: L, mut state: S::State) -> Self {
         let zero = L::splat(0.0);
         let mode = system.start(time, &mut state);
@@ -132,6 +135,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let idles = length.le(until * L::splat(STANDSTILL)) & length.lt(left);
         self.idle = L::select(idles, self.idle + L::splat(1.0), L::splat(0.0));
         self.idle = L::select(end.unknown, L::splat(f64::INFINITY), self.idle);
+        step.switches = end.falls();
         step.event = self.switch(system, &end);
         step.arrives = if S::AUTONOMOUS { self.pass_section(&end) } else { until.le(self.time) };
     }

@@ -17,6 +17,8 @@ pub struct Step<L: Lane, S: Switched<L>> {
     pub jet: S::Jet,
     /// The event at its end, as `Switched::switch` numbers it; zero for none.
     pub event: L,
+    /// Whether a guard has been obeyed at its end, with an event or without.
+    pub switches: L::Mask,
     /// Whether a cycle ends with it.
     pub arrives: L::Mask,
     /// The guards of numbers without derivatives; of others the first place is room for one.
@@ -62,6 +64,7 @@ impl<L: Lane, S: Switched<L>> Default for Step<L, S> {
             mode: S::Mode::default(),
             jet: S::Jet::default(),
             event: zero,
+            switches: L::Mask::splat(false),
             arrives: L::Mask::splat(false),
             guards: [series::zero(); MAX_GUARDS],
             plain_guards: [series::zero(); MAX_GUARDS],
@@ -83,6 +86,7 @@ impl<S: Switched<f64>> Step<f64, S> {
         self.take_times(index, lanes);
         self.jet = lanes.jet.lane(index);
         self.event = lanes.event.lane(index);
+        self.switches = lanes.switches.lane(index);
         self.arrives = lanes.arrives.lane(index);
     }
 

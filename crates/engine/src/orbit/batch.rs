@@ -17,8 +17,8 @@ use super::returns::plain_returns;
 /// Room for the stack of a computation [bytes]; only what is used is taken.
 const STACK: usize = 4 << 20;
 
-/// Motions that a lane follows one after the other.
-const EACH_LANE: usize = 8;
+/// Motions that a lane follows one after the other: among many few lanes are empty while the last end.
+const EACH_LANE: usize = 32;
 /// Returns without derivatives that take as long as one with them.
 const PLAIN: usize = 6;
 /// What some wait for is passed over at most so many times: among endlessly many others they would wait for ever.

@@ -228,13 +228,15 @@ impl<N: Lane, M: System<D>, A, const D: usize> Lanes<N, M, A, D> {
         !enters
     }
 
-    /// Lets those in that have taken their first steps.
+    /// Lets those in that have taken their first steps: once one has obeyed no guard, further ones change nothing.
     #[inline(always)]
     fn end_first_step(&mut self) {
         self.first_steps -= 1;
-        if self.first_steps > 0 {
+        let obeyed = self.step.switches.bits() & self.enter;
+        if self.first_steps > 0 && obeyed != 0 {
             return;
         }
+        self.first_steps = 0;
         self.entering.face_section(&self.system, &mut self.step);
         while let Some(lane) = take_lowest(&mut self.enter) {
             self.motion.take_lane(lane, &self.entering);
