@@ -71,7 +71,7 @@ fn together<L: Lane, M: System<D>, const D: usize>(
         waiting,
         found: requests.iter().map(|_| None).collect(),
         requests: requests.into_iter().map(Some).collect(),
-        own: Step::default(),
+        step: Step::default(),
     };
     lanes.follow(&mut task);
     task.found.into_iter().map(|it| it.expect("each has been measured")).collect()
@@ -86,11 +86,11 @@ struct Measuring<L: Lane, M: System<D>, const D: usize> {
     observed: M::Observers<L>,
     found: Vec<Option<Measured<M, D>>>,
     /// Room for the step of one lane.
-    own: Step<f64, M::Single>,
+    step: Step<f64, M::Single>,
 }
 
 /// A motion in a lane.
-struct Underway<M: System<D>, const D: usize> {
+struct MotionInLane<M: System<D>, const D: usize> {
     /// Its place among those that are to be measured.
     number: usize,
     request: MeasureRequest<M, D>,
@@ -104,12 +104,12 @@ struct Underway<M: System<D>, const D: usize> {
     ends: VecDeque<u64>,
 }
 
-impl<M: System<D>, const D: usize> Underway<M, D> {
+impl<M: System<D>, const D: usize> MotionInLane<M, D> {
     fn new(number: usize, request: MeasureRequest<M, D>) -> Self {
         let metric = request.system.metric();
         let mut kept = Kept::new(request.points);
         kept.begin_cycle(&metric, M::Single::point(&request.motion.state));
-        Underway {
+        MotionInLane {
             number,
             system: request.system.single(),
             metric,
@@ -129,7 +129,7 @@ impl<M: System<D>, const D: usize> Underway<M, D> {
 }
 
 impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Measuring<L, M, D> {
-    type Kept = Underway<M, D>;
+    type Kept = MotionInLane<M, D>;
     const KERNEL: Kernel = Kernel::Measuring;
 
     #[inline(always)]
@@ -141,9 +141,9 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Measuring<L, M, D>
             let MeasureRequest { system, motion, observed_points, .. } = &request;
             self.observed.put(lane, &system.observer(*observed_points));
             let (system, motion) = (system.single(), *motion);
-            let underway = Underway::new(number, request);
-            let steps_left = underway.steps_left();
-            lanes.put(lane, &system, &motion, underway);
+            let own = MotionInLane::new(number, request);
+            let steps_left = own.steps_left();
+            lanes.put(lane, &system, &motion, own);
             lanes.allow(lane, steps_left);
         }
         lanes.count() > 0
@@ -155,9 +155,9 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Measuring<L, M, D>
         self.observed.see(system, step);
         let defect = DefectInLanes::of(system, step);
         let begins = M::In::<L>::point(&system.beginning(&step.jet));
-        for (lane, underway) in kept.iter_mut().enumerate() {
-            let Some(Underway { system, metric, kept, .. }) = underway else { continue };
-            let defect = defect.one(lane, step, system, &mut self.own);
+        for (lane, own) in kept.iter_mut().enumerate() {
+            let Some(MotionInLane { system, metric, kept, .. }) = own else { continue };
+            let defect = defect.one(lane, step, system, &mut self.step);
             kept.see(metric, &begins.lane(lane), defect);
         }
     }
@@ -169,22 +169,22 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Measuring<L, M, D>
         lane: usize,
         cycle: EndedCycle,
     ) {
-        let Some(underway) = &mut lanes.kept[lane] else { return };
-        underway.progress.steps += cycle.steps;
-        underway.progress.count(cycle.duration);
-        underway.cycles += 1;
-        if underway.ends.front() == Some(&underway.cycles) {
-            underway.ends.pop_front();
-            underway.batches.push(self.observed.lane(lane));
+        let Some(own) = &mut lanes.kept[lane] else { return };
+        own.progress.steps += cycle.steps;
+        own.progress.count(cycle.duration);
+        own.cycles += 1;
+        if own.ends.front() == Some(&own.cycles) {
+            own.ends.pop_front();
+            own.batches.push(self.observed.lane(lane));
         }
-        if underway.cycles < underway.request.cycles {
+        if own.cycles < own.request.cycles {
             let here = M::Single::point(&lanes.motion.state.lane(lane));
-            underway.kept.begin_cycle(&underway.metric, here);
-            let steps_left = underway.steps_left();
+            own.kept.begin_cycle(&own.metric, here);
+            let steps_left = own.steps_left();
             lanes.allow(lane, steps_left);
             return;
         }
-        let Underway { number, progress, batches, kept, .. } = lanes.take(lane);
+        let MotionInLane { number, progress, batches, kept, .. } = lanes.take(lane);
         let (motion, observed) = (lanes.motion.lane(lane), self.observed.lane(lane));
         self.found[number] =
             Some(Measured { motion, progress, observed, batches, kept, failure: None });
@@ -192,7 +192,7 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Measuring<L, M, D>
 
     #[inline(always)]
     fn give_up(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>, lane: usize) {
-        let Underway { number, request, .. } = lanes.take(lane);
+        let MotionInLane { number, request, .. } = lanes.take(lane);
         self.found[number] = Some(measured_alone(request));
     }
 }

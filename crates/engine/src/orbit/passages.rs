@@ -125,7 +125,7 @@ struct Returning<'a, P: Lane, M: System<D>, const D: usize, const U: usize> {
 }
 
 /// A return in a lane.
-struct Underway<E, const U: usize> {
+struct ReturnInLane<E, const U: usize> {
     /// Its place among those that are asked for.
     number: usize,
     passing: Passing<Dual<f64, U>, E>,
@@ -135,7 +135,7 @@ struct Underway<E, const U: usize> {
 impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>, M, D>
     for Returning<'a, L::Plain, M, D, U>
 {
-    type Kept = Underway<M::Event, U>;
+    type Kept = ReturnInLane<M::Event, U>;
     const KERNEL: Kernel = Kernel::Returns;
 
     #[inline(always)]
@@ -156,7 +156,7 @@ impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>,
         for (lane, number) in numbers.into_iter().enumerate() {
             if let Some(number) = number {
                 let passing = Passing::new(lanes.period(lane));
-                lanes.let_in(lane, Underway { number, passing, cycles: 0 });
+                lanes.let_in(lane, ReturnInLane { number, passing, cycles: 0 });
             }
         }
         true
@@ -177,8 +177,8 @@ impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>,
             let watched = L::Mask::from_bits(watched);
             self.changes.of(coordinate, step.length.plain(), watched, one);
         }
-        for (lane, underway) in kept.iter_mut().enumerate() {
-            let Some(underway) = underway.as_mut().filter(|_| watched >> lane & 1 != 0) else {
+        for (lane, own) in kept.iter_mut().enumerate() {
+            let Some(own) = own.as_mut().filter(|_| watched >> lane & 1 != 0) else {
                 continue;
             };
             let event = M::Event::from_code(step.event.lane(lane));
@@ -186,9 +186,9 @@ impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>,
             if let Some((coordinate, surface)) = touching {
                 let at = |time: f64| value_in_lane(coordinate, lane, time);
                 let changes = (&self.changes, lane);
-                underway.passing.turn(changes, seen, at, || one(&surface, lane));
+                own.passing.turn(changes, seen, at, || one(&surface, lane));
             }
-            underway.passing.see(seen);
+            own.passing.see(seen);
         }
     }
 
@@ -199,12 +199,12 @@ impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>,
         lane: usize,
         _cycle: EndedCycle,
     ) {
-        let Some(underway) = &mut lanes.kept[lane] else { return };
-        underway.cycles += 1;
-        if underway.cycles < self.in_lane[lane].cycles.count {
+        let Some(own) = &mut lanes.kept[lane] else { return };
+        own.cycles += 1;
+        if own.cycles < self.in_lane[lane].cycles.count {
             return;
         }
-        let Underway { number, passing, .. } = lanes.take(lane);
+        let ReturnInLane { number, passing, .. } = lanes.take(lane);
         let end = M::In::<Dual<L, U>>::point(&lanes.motion.state);
         let end = std::array::from_fn(|i| one(&end[i], lane));
         self.found[number] = Ok(told(end, passing, f64::INFINITY));

@@ -97,7 +97,7 @@ struct Crowd<'a, M: System<D>, const D: usize> {
 }
 
 /// A case in a lane, and what has been noted of it.
-struct Followed<E, const D: usize> {
+struct CaseInLane<E, const D: usize> {
     index: usize,
     cycles: usize,
     points: Vec<[f64; D]>,
@@ -107,7 +107,7 @@ struct Followed<E, const D: usize> {
 /// The index of a case, its section points, and its events where they are noted.
 type Told<E, const D: usize> = (usize, Returns<D>, Vec<E>);
 
-impl<E, const D: usize> Followed<E, D> {
+impl<E, const D: usize> CaseInLane<E, D> {
     fn tell(self, failure: Option<Reason>) -> Told<E, D> {
         (self.index, Returns { points: self.points, failure }, self.events)
     }
@@ -147,7 +147,7 @@ impl<M: System<D>, const D: usize> Following<'_, M, D> {
 }
 
 impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Following<'_, M, D> {
-    type Kept = Followed<M::Event, D>;
+    type Kept = CaseInLane<M::Event, D>;
     const KERNEL: Kernel = Kernel::PlainReturns;
 
     #[inline(always)]
@@ -161,7 +161,7 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Following<'_, M, D
             let system = case.system.single();
             let motion = Motion::new(&system, case.begins, case.start);
             let (points, events) = (Vec::new(), Vec::new());
-            lanes.put(lane, &system, &motion, Followed { index, cycles: 0, points, events });
+            lanes.put(lane, &system, &motion, CaseInLane { index, cycles: 0, points, events });
         }
         lanes.count() > 0
     }
@@ -171,10 +171,10 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Following<'_, M, D
         if !self.crowd.events {
             return;
         }
-        for (lane, followed) in lanes.kept.iter_mut().enumerate() {
+        for (lane, own) in lanes.kept.iter_mut().enumerate() {
             let event = M::Event::from_code(lanes.step.event.lane(lane));
-            if let Some(followed) = followed {
-                followed.events.extend(event);
+            if let Some(own) = own {
+                own.events.extend(event);
             }
         }
     }
@@ -186,13 +186,13 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Following<'_, M, D
         lane: usize,
         _cycle: EndedCycle,
     ) {
-        let Some(followed) = &mut lanes.kept[lane] else { return };
-        followed.cycles += 1;
-        let waited = self.crowd.waited[followed.index];
-        if followed.cycles > waited {
-            followed.points.push(M::Single::point(&lanes.motion.state.lane(lane)));
+        let Some(own) = &mut lanes.kept[lane] else { return };
+        own.cycles += 1;
+        let waited = self.crowd.waited[own.index];
+        if own.cycles > waited {
+            own.points.push(M::Single::point(&lanes.motion.state.lane(lane)));
         }
-        if followed.cycles >= waited + self.crowd.kept {
+        if own.cycles >= waited + self.crowd.kept {
             self.done.push(lanes.take(lane).tell(None));
         }
     }
