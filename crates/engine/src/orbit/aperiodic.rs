@@ -93,15 +93,15 @@ pub fn follow_aperiodic<M: System<D>, const D: usize>(
     starts: &[Departure<'_, M, D>],
     protocol: &Protocol,
 ) -> Vec<Result<Aperiodic<D>, Reason>> {
-    instructions.run_on_a_vector(Crowd { starts, protocol })
+    instructions.run_on_a_vector(Departures { starts, protocol })
 }
 
-struct Crowd<'a, M, const D: usize> {
+struct Departures<'a, M, const D: usize> {
     starts: &'a [Departure<'a, M, D>],
     protocol: &'a Protocol,
 }
 
-impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
+impl<M: System<D>, const D: usize> Work for Departures<'_, M, D> {
     type Output = Vec<Result<Aperiodic<D>, Reason>>;
 
     #[inline(always)]

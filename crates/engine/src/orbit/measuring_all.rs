@@ -24,14 +24,14 @@ pub fn measured_side_by_side<M: System<D>, const D: usize>(
     instructions: Instructions,
     requests: Vec<MeasureRequest<M, D>>,
 ) -> Vec<Measured<M, D>> {
-    instructions.run_on_a_vector(Crowd { requests })
+    instructions.run_on_a_vector(Requests { requests })
 }
 
-struct Crowd<M: System<D>, const D: usize> {
+struct Requests<M: System<D>, const D: usize> {
     requests: Vec<MeasureRequest<M, D>>,
 }
 
-impl<M: System<D>, const D: usize> Work for Crowd<M, D> {
+impl<M: System<D>, const D: usize> Work for Requests<M, D> {
     type Output = Vec<Measured<M, D>>;
 
     #[inline(always)]

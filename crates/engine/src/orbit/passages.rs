@@ -25,14 +25,14 @@ pub fn passages<M: System<D>, const D: usize>(
     instructions: Instructions,
     requests: &[&ReturnRequest<M, D>],
 ) -> Vec<Result<Passage<M::Event, D>, Reason>> {
-    instructions.run_on_a_vector(Crowd { requests })
+    instructions.run_on_a_vector(Requests { requests })
 }
 
-struct Crowd<'a, M: System<D>, const D: usize> {
+struct Requests<'a, M: System<D>, const D: usize> {
     requests: &'a [&'a ReturnRequest<M, D>],
 }
 
-impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
+impl<M: System<D>, const D: usize> Work for Requests<'_, M, D> {
     type Output = Vec<Result<Passage<M::Event, D>, Reason>>;
 
     #[inline(always)]

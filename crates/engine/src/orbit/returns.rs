@@ -39,8 +39,8 @@ pub fn returns<M: System<D>, const D: usize>(
     let waited = &vec![waited as usize; cases.len()];
     machine.share_out(cases.len(), |share, instructions| {
         let events = false;
-        let crowd = Crowd { cases, taken: &taken, share, waited, kept, events, tolerance };
-        let own = instructions.run(crowd);
+        let wanted = WantedReturns { cases, taken: &taken, share, waited, kept, events, tolerance };
+        let own = instructions.run(wanted);
         let mut found = found.lock().expect("no thread has panicked");
         for (index, returns, _) in own {
             found[index] = returns;
@@ -72,9 +72,9 @@ pub fn plain_returns<M: System<D>, const D: usize>(
     }
     let (taken, share, kept, events) = (AtomicUsize::new(0), usize::MAX, 1, true);
     let (cases, waited) = (&cases, &waited);
-    let crowd = Crowd { cases, taken: &taken, share, waited, kept, events, tolerance };
+    let wanted = WantedReturns { cases, taken: &taken, share, waited, kept, events, tolerance };
     let mut found: PlainReturns<M::Event, D> = cases.iter().map(|_| None).collect();
-    for (index, returns, events) in instructions.run(crowd) {
+    for (index, returns, events) in instructions.run(wanted) {
         let end = returns.points.last().filter(|_| returns.failure.is_none());
         found[index] = end.map(|end| PlainReturn { end: *end, events });
     }
@@ -83,7 +83,7 @@ pub fn plain_returns<M: System<D>, const D: usize>(
 }
 
 /// The cases, and how many of them any thread has taken.
-struct Crowd<'a, M: System<D>, const D: usize> {
+struct WantedReturns<'a, M: System<D>, const D: usize> {
     cases: &'a [Case<M, D>],
     taken: &'a AtomicUsize,
     /// Lanes that are filled at the beginning, so that a few cases are not all with one thread.
@@ -113,7 +113,7 @@ impl<E, const D: usize> CaseInLane<E, D> {
     }
 }
 
-impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
+impl<M: System<D>, const D: usize> Work for WantedReturns<'_, M, D> {
     type Output = Vec<Told<M::Event, D>>;
 
     #[inline(always)]
@@ -122,7 +122,7 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
         let system = first.system.single();
         let motion = Motion::<L, M::In<L>>::splat(&Motion::new(&system, 0.0, first.start));
         let mut lanes = Lanes::new(M::In::<L>::splat(&system), motion, self.tolerance);
-        let mut task = Following { crowd: self, done: Vec::new() };
+        let mut task = Following { wanted: self, done: Vec::new() };
         lanes.follow(&mut task);
         task.done
     }
@@ -130,14 +130,14 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
 
 /// Follows the cases, and tells what is noted of those that are done.
 struct Following<'a, M: System<D>, const D: usize> {
-    crowd: Crowd<'a, M, D>,
+    wanted: WantedReturns<'a, M, D>,
     done: Vec<Told<M::Event, D>>,
 }
 
 impl<M: System<D>, const D: usize> Following<'_, M, D> {
     /// The next case.
     fn next(&self) -> Option<(usize, &Case<M, D>)> {
-        let Crowd { cases, taken, .. } = self.crowd;
+        let WantedReturns { cases, taken, .. } = self.wanted;
         if taken.load(Ordering::Relaxed) >= cases.len() {
             return None;
         }
@@ -152,11 +152,11 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Following<'_, M, D
 
     #[inline(always)]
     fn fill(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>) -> bool {
-        while lanes.count() < self.crowd.share
+        while lanes.count() < self.wanted.share
             && let Some(lane) = lanes.free().next()
             && let Some((index, case)) = self.next()
         {
-            let alike = case.system.is_alike(&self.crowd.cases[0].system);
+            let alike = case.system.is_alike(&self.wanted.cases[0].system);
             assert!(alike, "cases side by side are alike");
             let system = case.system.single();
             let motion = Motion::new(&system, case.begins, case.start);
@@ -168,7 +168,7 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Following<'_, M, D
 
     #[inline(always)]
     fn see(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>) {
-        if !self.crowd.events {
+        if !self.wanted.events {
             return;
         }
         for (lane, own) in lanes.kept.iter_mut().enumerate() {
@@ -188,11 +188,11 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Following<'_, M, D
     ) {
         let Some(own) = &mut lanes.kept[lane] else { return };
         own.cycles += 1;
-        let waited = self.crowd.waited[own.index];
+        let waited = self.wanted.waited[own.index];
         if own.cycles > waited {
             own.points.push(M::Single::point(&lanes.motion.state.lane(lane)));
         }
-        if own.cycles >= waited + self.crowd.kept {
+        if own.cycles >= waited + self.wanted.kept {
             self.done.push(lanes.take(lane).tell(None));
         }
     }
