@@ -135,7 +135,7 @@ impl Random {
             max_period: 1 + self.below(100_000),
             measured_cycles: 1 + self.below(1000) as u64,
             exponent_cycles: self.one(&[0, 16, 2048, 1_000_000]),
-            exponent_error: self.uniform(1e-4, 0.2),
+            exponent_error: self.uniform(1e-4, 0.1),
             points: self.below(100),
             impact_points: self.below(100),
             accelerate: self.is_so(),

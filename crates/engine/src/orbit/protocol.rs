@@ -116,7 +116,7 @@ impl Default for Protocol {
 
 impl Protocol {
     /// What the error wanted of an exponent may be: chaos is told by an exponent of five standard errors, and is to be clear.
-    pub const EXPONENT_ERRORS: RangeInclusive<f64> = 1e-4..=0.2;
+    pub const EXPONENT_ERRORS: RangeInclusive<f64> = 1e-4..=0.1;
     /// What a tolerance and a recurrence may be.
     pub const TOLERANCES: RangeInclusive<f64> = 1e-15..=1e-3;
 
