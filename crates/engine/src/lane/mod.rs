@@ -244,8 +244,8 @@ macro_rules! plain {
             _a: &$crate::lane::Series<Self>,
             k: usize,
         ) -> Self {
-            let product = $crate::lane::series::product_term(e, b, k);
-            (factor * product) * Self::splat($crate::lane::series::INVERSE[k + 1])
+            let product = $crate::lane::order::product_term(e, b, k);
+            (factor * product) * Self::splat($crate::lane::order::INVERSE[k + 1])
         }
         #[inline(always)]
         fn plain_series<'a>(

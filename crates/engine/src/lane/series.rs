@@ -8,18 +8,7 @@
 
 use super::{Lane, elementary};
 
-pub use super::order::{ORDER, Series};
-
-/// `1/n`, so that the recurrences multiply rather than divide.
-pub const INVERSE: [f64; ORDER + 2] = {
-    let mut table = [0.0; ORDER + 2];
-    let mut n = 1;
-    while n < table.len() {
-        table[n] = 1.0 / n as f64;
-        n += 1;
-    }
-    table
-};
+pub use super::order::{INVERSE, ORDER, Series, product_term};
 
 /// Zero in every coefficient.
 #[inline(always)]
@@ -116,16 +105,6 @@ pub fn scaled<L: Lane>(series: &Series<L>, by: L) -> Series<L> {
         *term = by * *term;
     }
     scaled
-}
-
-/// Coefficient `k` of the product of two series.
-#[inline(always)]
-pub fn product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {
-    let mut sum = a[0] * b[k];
-    for j in 1..k + 1 {
-        sum = sum + a[j] * b[k - j];
-    }
-    sum
 }
 
 /// Coefficient `k` of the square of a series, by half the multiplications of a product.
