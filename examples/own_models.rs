@@ -4,13 +4,11 @@
 
 use std::process::ExitCode;
 
-use capsulemap::model::Model;
 use capsulemap::of::register;
 use capsulemap_oscillators::{BELT, IMPACT};
 
 fn main() -> ExitCode {
-    let models: [&'static dyn Model; 2] = [&IMPACT, &BELT];
-    for model in models {
+    for model in [IMPACT, BELT] {
         register(model).expect("the names of the models are free");
     }
     capsulemap::cli::main("unknown")

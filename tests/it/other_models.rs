@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use capsulemap::campaign::{Campaign, Event, Task, silent};
 use capsulemap::description::Parameter;
 use capsulemap::figure::draw;
-use capsulemap::model::{Model as _, Setting};
+use capsulemap::model::Setting;
 use capsulemap::of::{all_models, register};
 use capsulemap::orbit::Outcome;
 use capsulemap::store::{self, Archive};
@@ -58,7 +58,7 @@ points = 40
 
 /// The study in `text`, whose model is known by then.
 fn study(text: &str) -> Study {
-    static KNOWN: LazyLock<()> = LazyLock::new(|| register(&IMPACT).expect("its name is free"));
+    static KNOWN: LazyLock<()> = LazyLock::new(|| register(IMPACT).expect("its name is free"));
     LazyLock::force(&KNOWN);
     parse(text)
 }
@@ -78,7 +78,7 @@ fn swept(text: &str) -> (tempfile::TempDir, Archive) {
 fn a_registered_model_is_known_by_its_name_alone() {
     let study = study(LINE);
     assert!(*study.base.model() == IMPACT_OSCILLATOR && all_models().len() == 2);
-    assert!(register(&IMPACT).is_err());
+    assert!(register(IMPACT).is_err());
     let said =
         Study::parse("study.toml", &LINE.replace("impact-", "impakt-")).expect_err("unknown");
     let said = said.to_string();

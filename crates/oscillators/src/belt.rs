@@ -6,6 +6,7 @@ use capsulemap_models::description::{
     Roles, Rules, Signal, SignalKind, State,
 };
 use capsulemap_models::face::Face;
+use capsulemap_models::model::Model;
 use capsulemap_models::of::Of;
 use capsulemap_models::quantity::{Allowed, Quantity};
 
@@ -19,7 +20,9 @@ mod example;
 pub use example::Belt;
 
 /// The mass on the belt as a model.
-pub static BELT: Of<Belt<f64>, 1> = Of::model();
+///
+/// Behind the door, so that its lanes are compiled here and not in each crate that names it.
+pub static BELT: &dyn Model = &Of::<Belt<f64>, 1>::model();
 
 const DISPLACEMENT: Quantity = number("history_x", "displacement");
 const VELOCITY: Quantity = number("history_v", "velocity");

@@ -7,6 +7,7 @@ use capsulemap_models::description::{
     Parameters, Roles, Rules, Signal, SignalKind, State,
 };
 use capsulemap_models::face::{Face, engine_case};
+use capsulemap_models::model::Model;
 use capsulemap_models::motion::Case;
 use capsulemap_models::of::Of;
 use capsulemap_models::quantity::{Allowed, Quantity};
@@ -21,7 +22,9 @@ mod example;
 pub use example::Impactor;
 
 /// The impact oscillator as a model.
-pub static IMPACT: Of<Impactor<f64>, 2> = Of::model();
+///
+/// Behind the door, so that its lanes are compiled here and not in each crate that names it.
+pub static IMPACT: &dyn Model = &Of::<Impactor<f64>, 2>::model();
 
 const DISPLACEMENT: Quantity = number("history_x", "displacement");
 const VELOCITY: Quantity = number("history_v", "velocity");
