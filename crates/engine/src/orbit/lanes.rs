@@ -103,6 +103,13 @@ impl<N: Lane, M: System<D>, A, const D: usize> Lanes<N, M, A, D> {
         (0..N::WIDTH).filter(move |lane| taken >> lane & 1 == 0)
     }
 
+    /// The lanes with a motion.
+    #[inline(always)]
+    pub fn taken(&self) -> impl Iterator<Item = usize> + use<N, M, A, D> {
+        let taken = self.taken;
+        (0..N::WIDTH).filter(move |lane| taken >> lane & 1 != 0)
+    }
+
     /// Puts a motion into a lane that is free, with what goes with it.
     #[inline(always)]
     pub fn put(
@@ -269,14 +276,13 @@ impl<N: Lane, M: System<D>, A, const D: usize> Lanes<N, M, A, D> {
 
     /// Gives up the motions whose cycle has taken as many steps as it may.
     fn give_up_the_slow<T: Task<N, M, D, Kept = A>>(&mut self, task: &mut T) {
-        let mut taken = self.taken;
-        while let Some(lane) = take_lowest(&mut taken) {
+        for lane in self.taken() {
             if self.ends_by[lane] <= self.steps {
                 task.give_up(self, lane);
             }
         }
-        let lanes = (0..N::WIDTH).filter(|lane| self.taken >> lane & 1 != 0);
-        self.deadline = lanes.map(|lane| self.ends_by[lane]).min().unwrap_or(u64::MAX);
+        let ends = self.taken().map(|lane| self.ends_by[lane]).min();
+        self.deadline = ends.unwrap_or(u64::MAX);
     }
 }
 

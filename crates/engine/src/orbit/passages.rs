@@ -146,18 +146,15 @@ impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>,
         if free as u64 * self.requests[next].cycles.count < L::WIDTH as u64 {
             return true;
         }
-        let mut numbers = vec![None; L::WIDTH];
-        for lane in lanes.free() {
-            numbers[lane] = self.waiting.next();
-            self.in_lane[lane] = numbers[lane].map_or(self.in_lane[lane], |it| self.requests[it]);
+        let entrants: Vec<(usize, usize)> = lanes.free().zip(self.waiting.by_ref()).collect();
+        for &(lane, number) in &entrants {
+            self.in_lane[lane] = self.requests[number];
         }
         lanes.system = in_lanes::<L, M, D, U>(&self.in_lane);
         lanes.enter(begun(&lanes.system, &self.in_lane));
-        for (lane, number) in numbers.into_iter().enumerate() {
-            if let Some(number) = number {
-                let passing = Passing::new(lanes.period(lane));
-                lanes.let_in(lane, ReturnInLane { number, passing, cycles: 0 });
-            }
+        for (lane, number) in entrants {
+            let passing = Passing::new(lanes.period(lane));
+            lanes.let_in(lane, ReturnInLane { number, passing, cycles: 0 });
         }
         true
     }

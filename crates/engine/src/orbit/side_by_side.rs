@@ -101,9 +101,7 @@ impl<'a, M: System<D>, const D: usize> Work for Supply<'a, M, D> {
         let mut lanes = Lanes::new(system, motion, self.protocol.tolerance);
         self.ready.push_front(first);
         lanes.follow(&mut self);
-        let moving = (0..L::WIDTH).filter(|&lane| lanes.kept[lane].is_some());
-        let moving: Vec<_> = moving.collect();
-        let moving = moving.into_iter().map(|lane| taken_from(&mut lanes, lane)).collect();
+        let moving = lanes.taken().map(|lane| taken_from(&mut lanes, lane)).collect();
         self.left(moving)
     }
 }

@@ -150,13 +150,11 @@ impl<L: Lane> Drag<L> {
         L::Plain::select(cuts, low, length)
     }
 
-    /// A coefficient of the series of -|y2|/v_s, from that of y2; not computed of numbers without derivatives, which have no
-    /// use for it.
+    /// Writes coefficient `k` of -|y2|/v_s from that of y2; numbers without derivatives have no use for it.
     #[inline(always)]
-    pub fn exponent_term(&self, slip: L, y2: L) -> L {
-        match const { L::PARTS > 1 } {
-            true => -(y2.scaled(slip.plain()) * self.inverse_stribeck),
-            false => L::splat(0.0),
+    pub fn write_exponent_term(&self, slip: L, jet: &mut Jet<L>, k: usize) {
+        if const { L::PARTS > 1 } {
+            jet.exponent[k] = -(jet.y2[k].scaled(slip.plain()) * self.inverse_stribeck);
         }
     }
 

@@ -180,7 +180,7 @@ impl<L: Lane> Switched<L> for Capsule<L> {
         (jet.r[0], jet.y1[0], jet.x2[0], jet.y2[0]) = (state.r, state.y1, state.x2, state.y2);
         jet.force[0] = self.force(mode, state);
         jet.decay[0] = if any_slides { self.drag.decay_start(state.y2) } else { zero };
-        jet.exponent[0] = self.drag.exponent_term(mode.slip, state.y2);
+        self.drag.write_exponent_term(mode.slip, jet, 0);
         for k in 0..ORDER {
             let per = L::Plain::splat(series::INVERSE[k + 1]);
             let relative = jet.y1[k] - jet.y2[k];
@@ -196,7 +196,7 @@ impl<L: Lane> Switched<L> for Capsule<L> {
                 jet.acceleration[k] = L::select(slides, push, zero);
                 jet.y2[k + 1] = jet.acceleration[k].scaled(per);
                 jet.x2[k + 1] = jet.y2[k].scaled(per);
-                jet.exponent[k + 1] = self.drag.exponent_term(mode.slip, jet.y2[k + 1]);
+                self.drag.write_exponent_term(mode.slip, jet, k + 1);
                 jet.decay[k + 1] = self.drag.decay_term(mode.slip, jet, k);
             } else {
                 jet.acceleration[k] = zero;

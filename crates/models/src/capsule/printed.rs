@@ -119,7 +119,7 @@ impl<L: Lane> PrintedCapsule<L> {
             jet.x2[k + 1] = advance.scaled(per);
             jet.r[k + 1] = (jet.y1[k] - advance).scaled(per);
             if slides.any() {
-                jet.exponent[k + 1] = self.drag.exponent_term(mode.slip, jet.y2[k + 1]);
+                self.drag.write_exponent_term(mode.slip, jet, k + 1);
                 let decay = self.drag.decay_term(mode.slip, jet, k);
                 jet.decay[k + 1] = L::select(slides, decay, zero);
             }
@@ -186,7 +186,7 @@ impl<L: Lane> Switched<L> for PrintedCapsule<L> {
         let limit = mode.side * self.drag.static_limit;
         jet.force[0] = L::select(mode.is(Regime::Creeping), limit, force);
         jet.decay[0] = self.drag.decay_start(state.y2);
-        jet.exponent[0] = self.drag.exponent_term(mode.slip, state.y2);
+        self.drag.write_exponent_term(mode.slip, jet, 0);
         self.advance(mode, jet, share);
     }
 
