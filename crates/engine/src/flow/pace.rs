@@ -24,7 +24,7 @@ pub fn longest_step<L: Lane>(series: &Series<L>, tolerance: f64) -> L::Plain {
 fn longest_step_of<L: Lane>(series: &Series<L>, part: usize, tolerance: f64) -> L::Plain {
     let series = |k: usize| series[k].part(part);
     let log_tolerance = L::Plain::splat(tolerance.rough_log());
-    let mut firsts = [L::Plain::splat(0.0); 3];
+    let mut firsts = const { [L::Plain::ZERO; 3] };
     for (j, first) in firsts.iter_mut().enumerate() {
         *first = series(j).abs().rough_log() + log_tolerance;
     }

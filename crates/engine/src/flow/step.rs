@@ -56,6 +56,7 @@ impl<L: Lane, S: Switched<L>> Step<L, S> {
 }
 
 impl<L: Lane, S: Switched<L>> Default for Step<L, S> {
+    #[inline(always)]
     fn default() -> Self {
         let zero = L::splat(0.0);
         Step {

@@ -2,6 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::unrolled::unrolled;
 use super::{Differentiable, Lane, ORDER, Series, series};
 
 /// A number per lane with its derivatives along `N` directions.
@@ -22,7 +23,7 @@ impl<L: Lane, const N: usize> Dual<L, N> {
     /// A number that does not depend on any direction.
     #[inline(always)]
     pub fn constant(value: L) -> Self {
-        Dual { value, gradient: [L::splat(0.0); N] }
+        Dual { value, ..Self::ZERO }
     }
 
     /// A number that is itself the direction of this index.
@@ -33,13 +34,14 @@ impl<L: Lane, const N: usize> Dual<L, N> {
         variable
     }
 
+    /// Another number in the place of this one, with the derivatives of each direction.
     #[inline(always)]
-    fn with_gradient(value: L, gradient: impl Fn(usize) -> L) -> Self {
-        let mut dual = Dual::constant(value);
-        for (i, derivative) in dual.gradient.iter_mut().enumerate() {
-            *derivative = gradient(i);
-        }
-        dual
+    fn with_gradient(mut self, value: L, gradient: impl Fn(usize) -> L) -> Self {
+        self.value = value;
+        unrolled!(i < N, {
+            self.gradient[i] = gradient(i);
+        });
+        self
     }
 
     /// A function of this number by the chain rule, from its value and its slope here.
@@ -50,12 +52,10 @@ impl<L: Lane, const N: usize> Dual<L, N> {
     fn chained(self, value: L, slope: L) -> Self {
         let zero = L::splat(0.0);
         let unbounded = !slope.abs().le(L::splat(f64::MAX));
-        let mut dual = Dual { value, gradient: self.gradient };
-        for derivative in &mut dual.gradient {
-            let constant = unbounded & derivative.abs().le(zero);
-            *derivative = L::select(constant, zero, *derivative * slope);
-        }
-        dual
+        self.with_gradient(value, |i| {
+            let constant = unbounded & self.gradient[i].abs().le(zero);
+            L::select(constant, zero, self.gradient[i] * slope)
+        })
     }
 }
 
@@ -63,7 +63,7 @@ impl<L: Lane, const N: usize> Add for Dual<L, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Dual::with_gradient(self.value + other.value, |i| self.gradient[i] + other.gradient[i])
+        self.with_gradient(self.value + other.value, |i| self.gradient[i] + other.gradient[i])
     }
 }
 
@@ -71,7 +71,7 @@ impl<L: Lane, const N: usize> Sub for Dual<L, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Dual::with_gradient(self.value - other.value, |i| self.gradient[i] - other.gradient[i])
+        self.with_gradient(self.value - other.value, |i| self.gradient[i] - other.gradient[i])
     }
 }
 
@@ -81,7 +81,7 @@ impl<L: Lane, const N: usize> Mul for Dual<L, N> {
     #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Dual::with_gradient(self.value * other.value, |i| {
+        self.with_gradient(self.value * other.value, |i| {
             self.gradient[i] * other.value + self.value * other.gradient[i]
         })
     }
@@ -95,7 +95,7 @@ impl<L: Lane, const N: usize> Div for Dual<L, N> {
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         let inverse = L::splat(1.0) / other.value;
-        Dual::with_gradient(value, |i| (self.gradient[i] - value * other.gradient[i]) * inverse)
+        self.with_gradient(value, |i| (self.gradient[i] - value * other.gradient[i]) * inverse)
     }
 }
 
@@ -103,7 +103,7 @@ impl<L: Lane, const N: usize> Neg for Dual<L, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Dual::with_gradient(-self.value, |i| -self.gradient[i])
+        self.with_gradient(-self.value, |i| -self.gradient[i])
     }
 }
 
@@ -112,6 +112,7 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
     type Plain = L::Plain;
     const PARTS: usize = (N + 1) * L::PARTS;
     const WIDTH: usize = L::WIDTH;
+    const ZERO: Self = Dual { value: L::ZERO, gradient: [L::ZERO; N] };
 
     #[inline(always)]
     fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
@@ -129,11 +130,11 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
     #[inline(always)]
     fn with_lane(self, index: usize, value: f64) -> Self {
         let value = self.value.with_lane(index, value);
-        Dual::with_gradient(value, |i| self.gradient[i].with_lane(index, 0.0))
+        self.with_gradient(value, |i| self.gradient[i].with_lane(index, 0.0))
     }
     #[inline(always)]
     fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
-        Dual::with_gradient(L::select(mask, yes.value, no.value), |i| {
+        yes.with_gradient(L::select(mask, yes.value, no.value), |i| {
             L::select(mask, yes.gradient[i], no.gradient[i])
         })
     }
@@ -149,7 +150,7 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
     fn abs(self) -> Self {
         let negative = self.value.lt(L::splat(0.0));
         let turned = |i: usize| L::select(negative, -self.gradient[i], self.gradient[i]);
-        Dual::with_gradient(self.value.abs(), turned)
+        self.with_gradient(self.value.abs(), turned)
     }
     #[inline(always)]
     fn exp2_whole(self) -> Self {
@@ -210,17 +211,17 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
         let at = L::root(value, &values);
         let (there, slope) = value_and_slope(polynomial, at);
         let inverse = L::splat(-1.0) / slope;
-        Dual::with_gradient(at, |i| there.gradient[i] * inverse)
+        there.with_gradient(at, |i| there.gradient[i] * inverse)
     }
     #[inline(always)]
     fn scaled(self, by: L::Plain) -> Self {
-        Dual::with_gradient(self.value.scaled(by), |i| self.gradient[i].scaled(by))
+        self.with_gradient(self.value.scaled(by), |i| self.gradient[i].scaled(by))
     }
     /// The derivatives are those of the polynomial at a time without any, and its slope times those of the time.
     #[inline(always)]
     fn value_at(polynomial: &Series<Self>, h: Self) -> Self {
         let (there, slope) = value_and_slope(polynomial, h.value);
-        Dual::with_gradient(there.value, |i| there.gradient[i] + slope * h.gradient[i])
+        h.with_gradient(there.value, |i| there.gradient[i] + slope * h.gradient[i])
     }
     #[inline(always)]
     fn exp_next(
@@ -236,16 +237,12 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
         }
         let value = (factor.value * product) * L::splat(series::INVERSE[k + 1]);
         // The derivative of e is e times that of a, with the term of e that is computed here.
-        let mut gradient = a[0].gradient;
-        for derivative in &mut gradient {
-            *derivative = *derivative * value;
-        }
+        let mut next = a[0].with_gradient(value, |i| a[0].gradient[i] * value);
         for j in 0..k + 1 {
-            for (derivative, of_a) in gradient.iter_mut().zip(&a[k + 1 - j].gradient) {
-                *derivative = *derivative + e[j].value * *of_a;
-            }
+            let of_a = &a[k + 1 - j].gradient;
+            next = next.with_gradient(value, |i| next.gradient[i] + e[j].value * of_a[i]);
         }
-        Dual { value, gradient }
+        next
     }
     #[inline(always)]
     fn plain_series<'a>(
@@ -268,10 +265,9 @@ fn value_and_slope<L: Lane, const N: usize>(
     let (mut sum, mut slope) = (polynomial[ORDER], L::splat(0.0));
     for k in (0..ORDER).rev() {
         slope = slope * time + sum.value;
-        sum.value = sum.value * time + polynomial[k].value;
-        for (sum, term) in sum.gradient.iter_mut().zip(&polynomial[k].gradient) {
-            *sum = *sum * time + *term;
-        }
+        let Dual { value, gradient } = &polynomial[k];
+        let next = sum.value * time + *value;
+        sum = sum.with_gradient(next, |i| sum.gradient[i] * time + gradient[i]);
     }
     (sum, slope)
 }

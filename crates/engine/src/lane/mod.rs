@@ -13,6 +13,7 @@ mod pair;
 pub mod quadrature;
 pub mod series;
 mod side_by_side;
+mod unrolled;
 mod wide;
 mod work;
 #[cfg(target_arch = "x86_64")]
@@ -93,6 +94,8 @@ pub trait Lane:
     const PARTS: usize;
     /// How many numbers there are.
     const WIDTH: usize;
+    /// Zero in every lane.
+    const ZERO: Self;
 
     /// The number of each lane, by its index.
     fn from_fn(value: impl FnMut(usize) -> f64) -> Self;
@@ -268,6 +271,7 @@ use plain;
 impl Lane for f64 {
     type Mask = bool;
     const WIDTH: usize = 1;
+    const ZERO: Self = 0.0;
     plain!();
 
     #[inline(always)]

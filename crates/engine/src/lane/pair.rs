@@ -67,6 +67,7 @@ impl Mask for PairMask {
 impl Lane for Pair {
     type Mask = PairMask;
     const WIDTH: usize = 2;
+    const ZERO: Self = Pair([0.0; 2]);
     super::plain!();
 
     #[inline(always)]

@@ -38,7 +38,7 @@ pub fn values<L: Lane>(series: &Series<L>, h: L) -> Values<L> {
     for (time, (node, _)) in times.iter_mut().zip(&RULE) {
         *time = L::splat(*node) * h;
     }
-    let mut sums = [L::splat(0.0); NODES];
+    let mut sums = const { [L::ZERO; NODES] };
     for &term in series.iter().rev() {
         for (sum, time) in sums.iter_mut().zip(&times) {
             *sum = *sum * *time + term;

@@ -13,7 +13,7 @@ pub use super::order::{INVERSE, ORDER, Series, product_term};
 /// Zero in every coefficient.
 #[inline(always)]
 pub fn zero<L: Lane>() -> Series<L> {
-    [L::splat(0.0); ORDER + 1]
+    const { [L::ZERO; ORDER + 1] }
 }
 
 /// Where every coefficient is a finite number.

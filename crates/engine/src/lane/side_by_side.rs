@@ -33,7 +33,7 @@ impl<L: Lane, const N: usize> SideBySide for [L; N] {
 
     #[inline(always)]
     fn splat(one: &[f64; N]) -> Self {
-        let mut lanes = [L::splat(0.0); N];
+        let mut lanes = const { [L::ZERO; N] };
         for (lanes, one) in lanes.iter_mut().zip(one) {
             *lanes = L::splat(*one);
         }

@@ -2,6 +2,7 @@
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+use super::unrolled::unrolled;
 use super::{Lane, Mask};
 
 /// `M` groups of lanes, or of their truth values, each treated exactly as it would be alone.
@@ -14,9 +15,9 @@ macro_rules! by_group {
             type Output = Self;
             #[inline(always)]
             fn $name(mut self, other: Self) -> Self {
-                for i in 0..M {
+                unrolled!(i < M, {
                     self.0[i] = self.0[i].$name(other.0[i]);
-                }
+                });
                 self
             }
         }
@@ -30,9 +31,9 @@ impl<L: Lane, const M: usize> Neg for Wide<L, M> {
     type Output = Self;
     #[inline(always)]
     fn neg(mut self) -> Self {
-        for i in 0..M {
+        unrolled!(i < M, {
             self.0[i] = -self.0[i];
-        }
+        });
         self
     }
 }
@@ -41,9 +42,9 @@ impl<K: Mask, const M: usize> Not for Wide<K, M> {
     type Output = Self;
     #[inline(always)]
     fn not(mut self) -> Self {
-        for i in 0..M {
+        unrolled!(i < M, {
             self.0[i] = !self.0[i];
-        }
+        });
         self
     }
 }
@@ -53,28 +54,28 @@ impl<K: Mask, const M: usize> Mask for Wide<K, M> {
 
     #[inline(always)]
     fn from_bits(bits: u64) -> Self {
-        let mut groups = [K::splat(false); M];
-        for (i, group) in groups.iter_mut().enumerate() {
-            *group = K::from_bits(bits >> (i * K::WIDTH));
-        }
-        Wide(groups)
+        let mut mask = Wide([K::splat(false); M]);
+        unrolled!(i < M, {
+            mask.0[i] = K::from_bits(bits >> (i * K::WIDTH));
+        });
+        mask
     }
     #[inline(always)]
     fn bits(self) -> u64 {
         let mut bits = 0;
-        for i in 0..M {
+        unrolled!(i < M, {
             bits |= self.0[i].bits() << (i * K::WIDTH);
-        }
+        });
         bits
     }
 }
 
 macro_rules! each {
-    ($self:ident, $of:expr) => {{
+    ($self:expr, $of:expr) => {{
         let mut result = $self;
-        for i in 0..M {
+        unrolled!(i < M, {
             result.0[i] = $of(i);
-        }
+        });
         result
     }};
 }
@@ -82,18 +83,19 @@ macro_rules! each {
 impl<L: Lane, const M: usize> Lane for Wide<L, M> {
     type Mask = Wide<L::Mask, M>;
     const WIDTH: usize = M * L::WIDTH;
+    const ZERO: Self = Wide([L::ZERO; M]);
     super::plain!();
 
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        Wide([L::splat(value); M])
+        each!(Self::ZERO, |_| L::splat(value))
     }
     #[inline(always)]
     fn from_fn(mut value: impl FnMut(usize) -> f64) -> Self {
-        let mut result = Self::splat(0.0);
-        for i in 0..M {
+        let mut result = Self::ZERO;
+        unrolled!(i < M, {
             result.0[i] = L::from_fn(|lane| value(i * L::WIDTH + lane));
-        }
+        });
         result
     }
     #[inline(always)]
@@ -113,17 +115,17 @@ impl<L: Lane, const M: usize> Lane for Wide<L, M> {
     #[inline(always)]
     fn lt(self, other: Self) -> Self::Mask {
         let mut mask = Self::Mask::splat(false);
-        for i in 0..M {
+        unrolled!(i < M, {
             mask.0[i] = self.0[i].lt(other.0[i]);
-        }
+        });
         mask
     }
     #[inline(always)]
     fn le(self, other: Self) -> Self::Mask {
         let mut mask = Self::Mask::splat(false);
-        for i in 0..M {
+        unrolled!(i < M, {
             mask.0[i] = self.0[i].le(other.0[i]);
-        }
+        });
         mask
     }
     #[inline(always)]
@@ -141,9 +143,9 @@ impl<L: Lane, const M: usize> Lane for Wide<L, M> {
     #[inline(always)]
     fn fraction_and_exponent(self) -> (Self, Self) {
         let (mut fractions, mut exponents) = (self, self);
-        for i in 0..M {
+        unrolled!(i < M, {
             (fractions.0[i], exponents.0[i]) = self.0[i].fraction_and_exponent();
-        }
+        });
         (fractions, exponents)
     }
     #[inline(always)]

@@ -7,6 +7,7 @@
 #![allow(unsafe_code)]
 
 use std::arch::x86_64::*;
+use std::mem::transmute;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::work::Work;
@@ -151,10 +152,10 @@ impl Mask for Mask4 {
 /// What both widths do alike, with the integer and the floating forms of their registers.
 macro_rules! lanes_alike {
     (
-        $width:literal, $wide:ident, $splat:ident, $load:ident, $store:ident, $or:ident, $right:ident,
-        $left:ident, $to_integer:ident, $to_double:ident, $andnot:ident, $sqrt:ident
+        $width:literal, $wide:ident, $splat:ident, $or:ident, $right:ident, $left:ident, $to_integer:ident, $to_double:ident, $andnot:ident, $sqrt:ident
     ) => {
         const WIDTH: usize = $width;
+        const ZERO: Self = Self::from_array([0.0; $width]);
 
         #[inline(always)]
         fn splat(value: f64) -> Self {
@@ -166,20 +167,17 @@ macro_rules! lanes_alike {
             for (index, lane) in lanes.iter_mut().enumerate() {
                 *lane = value(index);
             }
-            $wide(here!($load(lanes.as_ptr())))
+            Self::from_array(lanes)
         }
         #[inline(always)]
         fn lane(self, index: usize) -> f64 {
-            let mut lanes = [0.0; $width];
-            here!($store(lanes.as_mut_ptr(), self.0));
-            lanes[index]
+            self.into_array()[index]
         }
         #[inline(always)]
         fn with_lane(self, index: usize, value: f64) -> Self {
-            let mut lanes = [0.0; $width];
-            here!($store(lanes.as_mut_ptr(), self.0));
+            let mut lanes = self.into_array();
             lanes[index] = value;
-            $wide(here!($load(lanes.as_ptr())))
+            Self::from_array(lanes)
         }
         #[inline(always)]
         fn abs(self) -> Self {
@@ -220,6 +218,28 @@ macro_rules! lanes_alike {
     };
 }
 
+/// Vectors as arrays of their lanes: moved through memory, which takes no instructions of theirs, so that a lane costs
+/// a load where code is compiled without them, too.
+macro_rules! array_of_lanes {
+    ($wide:ident, $vector:ident, $width:literal) => {
+        impl $wide {
+            #[inline(always)]
+            const fn from_array(lanes: [f64; $width]) -> Self {
+                // SAFETY: both are so many numbers, of any bits.
+                $wide(unsafe { transmute::<[f64; $width], $vector>(lanes) })
+            }
+            #[inline(always)]
+            fn into_array(self) -> [f64; $width] {
+                // SAFETY: the same.
+                unsafe { transmute::<$vector, [f64; $width]>(self.0) }
+            }
+        }
+    };
+}
+
+array_of_lanes!(Avx512, __m512d, 8);
+array_of_lanes!(Avx2, __m256d, 4);
+
 macro_rules! negated {
     ($wide:ident, $xor:ident, $to_integer:ident, $to_double:ident) => {
         impl Neg for $wide {
@@ -244,8 +264,6 @@ impl Lane for Avx512 {
         8,
         Avx512,
         _mm512_set1_pd,
-        _mm512_loadu_pd,
-        _mm512_storeu_pd,
         _mm512_or_si512,
         _mm512_srli_epi64,
         _mm512_slli_epi64,
@@ -277,8 +295,6 @@ impl Lane for Avx2 {
         4,
         Avx2,
         _mm256_set1_pd,
-        _mm256_loadu_pd,
-        _mm256_storeu_pd,
         _mm256_or_si256,
         _mm256_srli_epi64,
         _mm256_slli_epi64,

@@ -1,6 +1,6 @@
 //! Numbers with derivatives have the same bits alone and in the lanes of every instruction set.
 
-use capsulemap_engine::flow::{Motion, Step, Stroboscopic};
+use capsulemap_engine::flow::{MAX_GUARDS, Motion, Step, Stroboscopic};
 
 use capsulemap_engine::lane::{Dual, Instructions, Lane, Mask, Work};
 use capsulemap_models::capsule::{Capsule, CapsuleParameters as _, CapsuleState as _, Case, State};
@@ -54,7 +54,12 @@ impl Work for Together<'_> {
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Self::Output {
-        self.0.chunks(L::WIDTH).flat_map(side_by_side::<L>).collect()
+        // A loop, as what iterators call is compiled without the instructions of the lanes.
+        let mut found = Vec::with_capacity(self.0.len());
+        for cases in self.0.chunks(L::WIDTH) {
+            found.extend(side_by_side::<L>(cases));
+        }
+        found
     }
 }
 
@@ -71,11 +76,20 @@ fn side_by_side<L: Lane>(cases: &[Case]) -> Vec<Vec<Bits>> {
     );
     let from = std::array::from_fn(|i| Dual::variable(lanes(&|case| start(case)[i]), i));
     let periods = Dual::<L, 3>::constant(lanes(&|case| case.parameters.drive_period()));
-    let mut motion = Motion::new(&system, Dual::splat(0.0), Capsule::state(from));
+    // As a new motion begins, with the one copy of the step that there is.
+    let zero = Dual::splat(0.0);
+    let mut motion = Motion::begun(&system, zero, Capsule::state(from));
+    let mut first_steps = MAX_GUARDS;
     let mut step = Step::default();
     let mut found = vec![Vec::new(); cases.len()];
     while found.iter().any(|cycles| cycles.len() < CYCLES) {
-        motion.step(&system, periods, TOLERANCE, &mut step);
+        let begins = first_steps > 0;
+        let (until, tolerance) = if begins { (zero, 1.0) } else { (periods, TOLERANCE) };
+        motion.step(&system, until, tolerance, &mut step);
+        if begins {
+            first_steps = if step.switches.any() { first_steps - 1 } else { 0 };
+            continue;
+        }
         let ended = periods.le(motion.time);
         for (lane, cycles) in found.iter_mut().enumerate() {
             if ended.lane(lane) && cycles.len() < CYCLES {

@@ -5,11 +5,13 @@ use std::marker::PhantomData;
 
 use capsulemap_engine::flow::{Event, Motion, Step, Switched};
 use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
-use capsulemap_engine::orbit::{OrbitOf, Protocol, Queue, settle_side_by_side};
+use capsulemap_engine::orbit::Protocol;
 use capsulemap_models::capsule::{
-    self, AsPrinted, CapsuleCase as _, CapsuleParameters as _, CapsuleState as _, CapsuleSystem,
-    Case, EventKind, Filippov, Orbit, Parameters, Reading, Simulation, State, Switching, orbit_of,
+    self, AsPrinted, CapsuleParameters as _, CapsuleState as _, Case, EventKind, Filippov, Orbit,
+    Parameters, Reading, Simulation, State, Switching,
 };
+use capsulemap_models::model::CaseQueue;
+use capsulemap_models::of::model_of;
 
 /// [`capsule::simulate`], compared with the same case in the last lane of a vector of others.
 pub fn simulate(
@@ -60,21 +62,19 @@ pub fn settle(
 ) -> Orbit {
     let alone = capsule::settle(parameters, phase, start, protocol);
     let case = Case::at_section(parameters.clone(), start, phase);
-    let among = match parameters.switching() {
-        Switching::Filippov => among::<Filippov>(&case, protocol),
-        Switching::AsPrinted => among::<AsPrinted>(&case, protocol),
-    };
+    let among = among(&case, protocol);
     // Text, because a number that is not known does not equal itself.
     assert_eq!(format!("{alone:?}"), format!("{among:?}"), "in lanes another orbit: {case:?}");
     alone
 }
 
 /// What a case settles to among others.
-fn among<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
-    let mut queue = CaseAmongOthers::<R> { case, given: 0, orbit: None };
-    settle_side_by_side::<CapsuleSystem<R>, 3>(Instructions::widest(), protocol, &mut queue);
-    let orbit = queue.orbit.expect("the case has been in the lanes to its end");
-    orbit_of::<R>(orbit, case, protocol)
+fn among(case: &Case, protocol: &Protocol) -> Orbit {
+    let mut queue = CaseAmongOthers { case, given: 0, orbit: None };
+    // By the door, as the lanes of the capsule are compiled there already.
+    let model = model_of(&case.parameters);
+    model.settle_queue(Instructions::widest(), protocol, None, &mut queue);
+    queue.orbit.expect("the case has been in the lanes to its end")
 }
 
 /// Another case, under the same law of resistance.
@@ -85,25 +85,22 @@ fn neighbour(case: &Case, number: usize) -> Case {
 }
 
 /// A queue that gives one case, and then others until it is finished.
-struct CaseAmongOthers<'a, R: Reading> {
+struct CaseAmongOthers<'a> {
     case: &'a Case,
     given: usize,
-    orbit: Option<OrbitOf<CapsuleSystem<R>, 3>>,
+    orbit: Option<Orbit>,
 }
 
-impl<R: Reading> Queue<CapsuleSystem<R>, 3> for CaseAmongOthers<'_, R> {
-    fn next(
-        &mut self,
-        done: Option<(usize, OrbitOf<CapsuleSystem<R>, 3>)>,
-    ) -> Option<(usize, capsulemap_engine::orbit::Case<CapsuleSystem<R>, 3>)> {
+impl CaseQueue for CaseAmongOthers<'_> {
+    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
         if let Some((0, orbit)) = done {
             self.orbit = Some(orbit);
         }
         let number = self.given;
         self.given += 1;
         match number {
-            0 => Some((0, self.case.read())),
-            _ if self.orbit.is_none() => Some((number, neighbour(self.case, number).read())),
+            0 => Some((0, self.case.clone())),
+            _ if self.orbit.is_none() => Some((number, neighbour(self.case, number))),
             _ => None,
         }
     }

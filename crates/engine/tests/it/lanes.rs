@@ -1,6 +1,6 @@
 //! The same source serves one case or many side by side, to the same bits.
 
-use capsulemap_engine::flow::{Motion, Reason, Step};
+use capsulemap_engine::flow::{Motion, Reason, Step, Switched as _};
 use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::{Outcome, Protocol};
 use capsulemap_models::capsule::{
@@ -60,7 +60,12 @@ impl Work for Together<'_> {
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Self::Output {
-        self.0.chunks(L::WIDTH).flat_map(side_by_side::<L>).collect()
+        // A loop, as what iterators call is compiled without the instructions of the lanes.
+        let mut found = Vec::with_capacity(self.0.len());
+        for cases in self.0.chunks(L::WIDTH) {
+            found.extend(side_by_side::<L>(cases));
+        }
+        found
     }
 }
 
@@ -68,11 +73,15 @@ impl Work for Together<'_> {
 #[inline(always)]
 fn side_by_side<L: Lane>(cases: &[(Parameters, State<f64>)]) -> Vec<(Vec<[u64; 4]>, Vec<u64>)> {
     let of = |lane: usize| cases.get(lane).unwrap_or(&cases[0]);
-    let law = of(0).0.resistance();
-    let system = Capsule::<L>::new(|p| L::from_fn(|lane| of(lane).0[p]), law, 0.0);
-    let start = State::from_fn(|lane| of(lane).1);
-    let periods = L::from_fn(|lane| of(lane).0.drive_period());
-    let mut motion = Motion::new(&system, L::splat(0.0), start);
+    let one = |lane: usize| Capsule::single(&of(lane).0, 0.0);
+    let begun = |lane: usize| Motion::new(&one(lane), 0.0, of(lane).1);
+    let mut system = Capsule::<L>::splat(&one(0));
+    let mut motion = Motion::<L, Capsule<L>>::splat(&begun(0));
+    for lane in 0..L::WIDTH {
+        system.put(lane, &one(lane));
+        motion.put(lane, &begun(lane));
+    }
+    let periods = system.period();
     let mut step = Step::default();
     let mut found = vec![(Vec::new(), Vec::new()); cases.len()];
     while found.iter().any(|(states, _)| states.len() < CYCLES) {
