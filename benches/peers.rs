@@ -6,7 +6,8 @@
 //! request is a line "cycles tolerance seconds cases" and a line "k2 omega p_d delta" for each case; the
 //! cases are integrated repeatedly until so many seconds have passed. An answer is one line of JSON: the
 //! processor's seconds and the number of passes, and r, y1, x2, y2 and the number of events of each case at
-//! the end.
+//! the end. With `--settle` the cases are settled instead, within so many cycles and with less damping than Table 1's, and told are the
+//! period, zero where none was found, and the average progression speed [m/s].
 
 mod cases;
 mod lanes;
@@ -17,17 +18,22 @@ use std::io;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use capsulemap::capsule::Parameters;
+use capsulemap::capsule::{Case, Orbit, Output, Parameter, Parameters, State, settle_all};
 use capsulemap::lane::Instructions;
+use capsulemap::orbit::{Machine, Protocol};
 use cases::{TOLERANCE, case_sets, integrate, parameters};
 use lanes::{CYCLES, End};
 use serde_json::json;
 
 /// So that one repetition is long beside the clock's ticks.
 const SECONDS: f64 = 1.0;
+/// Damping of the cases that are settled [N s/m]: with that of Table 1 few periods are longer than one.
+const MAP_DAMPING: f64 = 0.9;
 
 struct Request {
     instructions: Instructions,
+    /// Whether the cases are settled rather than integrated over the cycles.
+    settle: bool,
     cycles: u64,
     tolerance: f64,
     seconds: f64,
@@ -45,22 +51,55 @@ fn processor_seconds(begun: Instant) -> f64 {
     nanoseconds.map_or_else(|| begun.elapsed().as_secs_f64(), |count| count * 1e-9)
 }
 
-/// Integrates the cases until the seconds of the request have passed; returns the answer.
+/// Processor time of all threads [s], to a hundredth; where the system does not report it, elapsed time.
+fn processor_seconds_of_all(begun: Instant) -> f64 {
+    // After the name in parentheses come the state, ten numbers, and the user's and the system's time [1/100 s].
+    let ticks = || {
+        let text = fs::read_to_string("/proc/self/stat").ok()?;
+        let (_, fields) = text.rsplit_once(')')?;
+        let times = fields.split_whitespace().skip(11).take(2);
+        times.map(|time| time.parse::<f64>().ok()).sum::<Option<f64>>()
+    };
+    ticks().map_or_else(|| begun.elapsed().as_secs_f64(), |ticks| 0.01 * ticks)
+}
+
+/// The state and the number of events of each case at the end.
+fn ends(request: &Request) -> Vec<serde_json::Value> {
+    let Request { instructions, cycles, tolerance, cases, .. } = request;
+    let ends = integrate(*instructions, black_box(cases), *cycles, *tolerance);
+    let told = |End { state: s, events, .. }: &End| json!([s.r, s.y1, s.x2, s.y2, events]);
+    ends.iter().map(told).collect()
+}
+
+/// The period and the speed of what each case settles to.
+fn orbits(request: &Request) -> Vec<serde_json::Value> {
+    let Request { instructions, cycles, tolerance, cases, .. } = request;
+    let from_rest = |it: &Parameters| {
+        let mut parameters = it.clone();
+        parameters[Parameter::C] = MAP_DAMPING;
+        Case::at_section(parameters, State::default(), 0.0)
+    };
+    let cases: Vec<Case> = black_box(cases).iter().map(from_rest).collect();
+    let protocol = Protocol::with_tolerance(*tolerance);
+    let protocol = Protocol { max_cycles: *cycles, exponent_cycles: 0, ..protocol };
+    let machine = Machine { threads: Some(1), instructions: Some(*instructions) };
+    let told = |it: &Orbit| json!([it.period, it.outputs[Output::ProgressionSpeed]]);
+    settle_all(&cases, &protocol, machine).iter().map(told).collect()
+}
+
+/// Computes the cases until the seconds of the request have passed; returns the answer.
 fn answer(request: &Request) -> serde_json::Value {
     let begun = Instant::now();
-    let start = processor_seconds(begun);
+    // Cases settle on a thread of their own.
+    let now = if request.settle { processor_seconds_of_all } else { processor_seconds };
+    let start = now(begun);
     let mut passes = 0;
     loop {
-        let cases = black_box(&request.cases);
-        let ends = integrate(request.instructions, cases, request.cycles, request.tolerance);
+        let ends = if request.settle { orbits(request) } else { ends(request) };
         passes += 1;
-        let seconds = processor_seconds(begun) - start;
+        let seconds = now(begun) - start;
         if seconds >= request.seconds {
             let cycles = (passes * request.cases.len() as u64 * request.cycles) as f64;
-            let ends: Vec<_> = ends
-                .iter()
-                .map(|End { state: s, events, .. }| (s.r, s.y1, s.x2, s.y2, events))
-                .collect();
             return json!({
                 "seconds": seconds,
                 "passes": passes,
@@ -72,7 +111,10 @@ fn answer(request: &Request) -> serde_json::Value {
 }
 
 /// The next request, if there is one.
-fn read(instructions: Instructions, lines: &mut impl Iterator<Item = String>) -> Option<Request> {
+fn read(
+    (instructions, settle): (Instructions, bool),
+    lines: &mut impl Iterator<Item = String>,
+) -> Option<Request> {
     let numbers = |line: String| -> Vec<f64> {
         line.split_whitespace().map(|number| number.parse().expect("a number")).collect()
     };
@@ -80,26 +122,27 @@ fn read(instructions: Instructions, lines: &mut impl Iterator<Item = String>) ->
     let cases = lines.take(head[3] as usize).map(numbers);
     let cases = cases.map(|case| parameters(case[0], case[1], case[2], case[3])).collect();
     let (cycles, tolerance, seconds) = (head[0] as u64, head[1], head[2]);
-    Some(Request { instructions, cycles, tolerance, seconds, cases })
+    Some(Request { instructions, settle, cycles, tolerance, seconds, cases })
 }
 
-fn answer_requests(instructions: Instructions) {
+fn answer_requests(how: (Instructions, bool)) {
     let mut lines = io::stdin().lines().map(|line| line.expect("standard input can be read"));
-    while let Some(request) = read(instructions, &mut lines) {
+    while let Some(request) = read(how, &mut lines) {
         println!("{}", answer(&request));
     }
 }
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
-    let scalar = arguments.iter().any(|argument| argument == "--scalar");
+    let is_given = |option: &str| arguments.iter().any(|argument| argument == option);
+    let (scalar, settle) = (is_given("--scalar"), is_given("--settle"));
     let instructions = if scalar { Instructions::Scalar } else { Instructions::widest() };
-    if arguments.iter().any(|argument| argument == "--requests") {
-        return answer_requests(instructions);
+    if is_given("--requests") {
+        return answer_requests((instructions, settle));
     }
     for (name, cases) in case_sets() {
         let (cycles, tolerance, seconds) = (CYCLES, TOLERANCE, SECONDS);
-        let request = Request { instructions, cycles, tolerance, seconds, cases };
+        let request = Request { instructions, settle, cycles, tolerance, seconds, cases };
         println!("{}", json!({ "cases": name, "answer": answer(&request) }));
     }
 }

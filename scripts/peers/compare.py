@@ -154,6 +154,7 @@ def main():
     print(setting())
     print(f"\n{DEFINITION}")
     print("heyoka is judged by capsulemap's reference, all others by heyoka's.")
+    print("Speeds are medians of three.")
     print("Ratios are to heyoka in batches, the best of the peers.")
     print(
         "capsulemap stops at the end of every cycle; its peers go straight to the last."

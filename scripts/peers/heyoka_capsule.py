@@ -21,13 +21,13 @@ PARAMETERS = 6
 BEYOND = 1e-15
 
 
-def field_and_guards():
+def field_and_guards(damping=C):
     """Return the equations, the guard of contact and the guard of friction."""
     r, y1, x2, y2, cosine, sine = hy.make_vars("r", "y1", "x2", "y2", "cosine", "sine")
     contact, omega, p_d, delta, direction, slides = (
         hy.par[i] for i in range(PARAMETERS)
     )
-    force = (contact + K1) * r + C * (y1 - y2) - contact * delta
+    force = (contact + K1) * r + damping * (y1 - y2) - contact * delta
     friction = direction * (SLIDING * (1.0 + hy.exp(direction * y2 * (-1.0 / V_S))))
     field = [
         (r, y1 - y2),

@@ -28,14 +28,14 @@ def processor():
         return platform.processor() or platform.machine()
 
 
-def setting():
-    """Return the paragraph that heads the report."""
-    names = ("heyoka", "numpy", "scipy", "numba")
+def setting(*more):
+    """Return the paragraph that heads the report; `more` are packages of its own."""
+    names = ("heyoka", "numpy", "scipy", "numba", *more)
     packages = ", ".join(f"{name} {version(name)}" for name in names)
     commit = first_line("git", "describe", "--always", "--dirty")
     return (
         f"Measured on {datetime.now(UTC):%Y-%m-%d} on {processor()}, one thread each, "
-        "by turns; speeds are medians of three. The machine may be shared: compare "
+        "by turns. The machine may be shared: compare "
         f"figures of one run only. capsulemap {commit}, "
         f"{first_line('rustc', '--version')}; {first_line('gcc', '--version')}; "
         f"Python {platform.python_version()}, {packages}."
