@@ -18,6 +18,9 @@ PERIOD = 2.0 * np.pi
 TRANSIENT = 100 * PERIOD
 # A whole number of periods for each of the attractors, whose periods are 1 to 3.
 SAMPLES = 6
+# Means so far apart are of two attractors: its default of 0.05 takes three of them for
+# one, and less than this takes one for several, as samples are interpolated linearly.
+APART = 0.01
 
 
 @njit
@@ -47,6 +50,7 @@ def labels(side, tolerance):
         rk45_step_wrapped,
         "SM",
         sampling_time=np.float64(PERIOD),
+        eps=np.float64(APART),
     )
 
 

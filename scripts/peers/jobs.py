@@ -96,11 +96,13 @@ def period_map(cases):
         if a[0] > 0 and b[0] > 0
     ]
     equal = [(a[1], b[1]) for a, b in both if a[0] == b[0]]
+    twice = sum(b[0] == 2 * a[0] for a, b in both)
     fastest = max((abs(a) for a, _ in equal), default=math.nan)
     off = max((abs(a - b) for a, b in equal), default=math.nan)
     print(
-        f"\nBoth find a period of {len(both)} cases, the same of {len(equal)}; their "
-        f"speeds agree to {off / fastest:.1e} of the fastest."
+        f"\nBoth find a period of {len(both)} cases: the same of {len(equal)}, whose "
+        f"speeds agree to {off / fastest:.1e} of the fastest; heyoka's is twice the "
+        f"other of {twice}, whose sections come close from two sides by turns."
     )
 
 
