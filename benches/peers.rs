@@ -11,6 +11,8 @@
 
 mod cases;
 mod lanes;
+#[path = "../crates/engine/benches/processor/mod.rs"]
+mod processor;
 
 use std::fs;
 use std::hint::black_box;
@@ -23,6 +25,7 @@ use capsulemap::lane::Instructions;
 use capsulemap::orbit::{Machine, Protocol};
 use cases::{TOLERANCE, case_sets, integrate, parameters};
 use lanes::{CYCLES, End};
+use processor::seconds_of_all_threads;
 use serde_json::json;
 
 /// So that one repetition is long beside the clock's ticks.
@@ -49,18 +52,6 @@ fn processor_seconds(begun: Instant) -> f64 {
     let nanoseconds: Option<f64> =
         counted.and_then(|text| text.split_whitespace().next()?.parse().ok());
     nanoseconds.map_or_else(|| begun.elapsed().as_secs_f64(), |count| count * 1e-9)
-}
-
-/// Processor time of all threads [s], to a hundredth; where the system does not report it, elapsed time.
-fn processor_seconds_of_all(begun: Instant) -> f64 {
-    // After the name in parentheses come the state, ten numbers, and the user's and the system's time [1/100 s].
-    let ticks = || {
-        let text = fs::read_to_string("/proc/self/stat").ok()?;
-        let (_, fields) = text.rsplit_once(')')?;
-        let times = fields.split_whitespace().skip(11).take(2);
-        times.map(|time| time.parse::<f64>().ok()).sum::<Option<f64>>()
-    };
-    ticks().map_or_else(|| begun.elapsed().as_secs_f64(), |ticks| 0.01 * ticks)
 }
 
 /// The state and the number of events of each case at the end.
@@ -91,7 +82,7 @@ fn orbits(request: &Request) -> Vec<serde_json::Value> {
 fn answer(request: &Request) -> serde_json::Value {
     let begun = Instant::now();
     // Cases settle on a thread of their own.
-    let now = if request.settle { processor_seconds_of_all } else { processor_seconds };
+    let now = if request.settle { seconds_of_all_threads } else { processor_seconds };
     let start = now(begun);
     let mut passes = 0;
     loop {
@@ -112,7 +103,8 @@ fn answer(request: &Request) -> serde_json::Value {
 
 /// The next request, if there is one.
 fn read(
-    (instructions, settle): (Instructions, bool),
+    instructions: Instructions,
+    settle: bool,
     lines: &mut impl Iterator<Item = String>,
 ) -> Option<Request> {
     let numbers = |line: String| -> Vec<f64> {
@@ -125,9 +117,9 @@ fn read(
     Some(Request { instructions, settle, cycles, tolerance, seconds, cases })
 }
 
-fn answer_requests(how: (Instructions, bool)) {
+fn answer_requests(instructions: Instructions, settle: bool) {
     let mut lines = io::stdin().lines().map(|line| line.expect("standard input can be read"));
-    while let Some(request) = read(how, &mut lines) {
+    while let Some(request) = read(instructions, settle, &mut lines) {
         println!("{}", answer(&request));
     }
 }
@@ -138,7 +130,7 @@ fn main() {
     let (scalar, settle) = (is_given("--scalar"), is_given("--settle"));
     let instructions = if scalar { Instructions::Scalar } else { Instructions::widest() };
     if is_given("--requests") {
-        return answer_requests((instructions, settle));
+        return answer_requests(instructions, settle);
     }
     for (name, cases) in case_sets() {
         let (cycles, tolerance, seconds) = (CYCLES, TOLERANCE, SECONDS);

@@ -5,13 +5,12 @@ import statistics
 import subprocess
 import sys
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from cases import case_sets, sample
 from errors import DEFINITION, Comparison, compare
+from programs import HERE, bench, python
 from setting import setting
 
-HERE = Path(__file__).parent
 REPETITIONS = 3
 COLUMNS = (
     "contestant",
@@ -70,12 +69,7 @@ class Contestant:
         self.ends[set_name] = answer["ends"]
 
 
-def python(file, *arguments):
-    """Return the command that runs a contestant in Python."""
-    return [sys.executable, str(HERE / file), *arguments]
-
-
-CAPSULEMAP = ["cargo", "bench", "--quiet", "--bench", "peers", "--", "--requests"]
+CAPSULEMAP = bench("peers", "--requests")
 SCALAR = [*CAPSULEMAP, "--scalar"]
 RK4 = [str(HERE.parent.parent / "target/peers/rk4")]
 BEST_PEER = Contestant("heyoka, batches of 8, 1e-12", python("heyoka_batch.py"), 1e-12)

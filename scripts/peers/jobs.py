@@ -5,12 +5,11 @@ import math
 import subprocess
 import sys
 from collections import Counter
-from pathlib import Path
 
 from cases import GRID
+from programs import bench, python
 from setting import setting
 
-HERE = Path(__file__).parent
 TOLERANCE = 1e-8
 MAP_TOLERANCE = 1e-12
 # Cycles after which a case of the map is left without a period.
@@ -25,11 +24,6 @@ def ask(command, request=None):
     if done.returncode != 0:
         sys.exit(f"peers: {' '.join(command)} failed")
     return json.loads(done.stdout.splitlines()[-1])
-
-
-def python(file, *arguments):
-    """Return the command that runs a peer in Python."""
-    return [sys.executable, str(HERE / file), *arguments]
 
 
 def matched(ours, theirs):
@@ -52,8 +46,7 @@ def row(*cells):
 def basin(side):
     """Print the table of the basin."""
     numbers = [str(side), repr(TOLERANCE)]
-    bench = ["cargo", "bench", "--quiet", "-p", "capsulemap-engine"]
-    ours = ask([*bench, "--bench", "duffing_basin", "--", *numbers])
+    ours = ask(bench("duffing_basin", *numbers))
     theirs = ask(python("duffing_pynamicalsys.py", *numbers))
     starts = side * side
     print(f"\n### Duffing's basin: {starts} starts, tolerance {TOLERANCE:g}\n")
@@ -76,8 +69,7 @@ def period_map(cases):
     lines = [f"{MOST_CYCLES} {MAP_TOLERANCE!r} 0.0 {len(cases)}"]
     lines += [" ".join(map(repr, case)) for case in cases]
     request = "\n".join(lines) + "\n"
-    bench = ["cargo", "bench", "--quiet", "--bench", "peers", "--"]
-    ours = ask([*bench, "--requests", "--settle"], request)
+    ours = ask(bench("peers", "--requests", "--settle"), request)
     theirs = ask(python("heyoka_map.py"), request)
     print(
         f"\n### Map of periods: {len(cases)} cases of the grid from rest, at most "

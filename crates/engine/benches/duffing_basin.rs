@@ -8,25 +8,14 @@
 #[path = "../examples/duffing.rs"]
 #[allow(dead_code)]
 mod duffing;
+mod processor;
 
-use std::fs;
 use std::time::Instant;
 
 use capsulemap_engine::attractor::attractors_of;
 use capsulemap_engine::orbit::{Case, Machine, Protocol, settle_all};
 use duffing::Duffing;
-
-/// Seconds that the processor has spent on this program; where the system does not report them, those that have passed.
-fn processor_seconds(begun: Instant) -> f64 {
-    // After the name in parentheses come the state, ten numbers, and the user's and the system's time [1/100 s].
-    let ticks = || {
-        let text = fs::read_to_string("/proc/self/stat").ok()?;
-        let (_, fields) = text.rsplit_once(')')?;
-        let times = fields.split_whitespace().skip(11).take(2);
-        times.map(|time| time.parse::<f64>().ok()).sum::<Option<f64>>()
-    };
-    ticks().map_or_else(|| begun.elapsed().as_secs_f64(), |ticks| 0.01 * ticks)
-}
+use processor::seconds_of_all_threads;
 
 fn main() {
     let numbers: Vec<f64> = std::env::args().filter_map(|text| text.parse().ok()).collect();
@@ -43,10 +32,10 @@ fn main() {
     let cases: Vec<_> = starts.map(|start| Case::new(duffing, start)).collect();
     let protocol = Protocol::with_tolerance(tolerance);
     let begun = Instant::now();
-    let before = processor_seconds(begun);
+    let before = seconds_of_all_threads(begun);
     let orbits = settle_all(&cases, &protocol, Machine::single());
     let table = attractors_of(&duffing, &orbits, &protocol);
-    let seconds = processor_seconds(begun) - before;
+    let seconds = seconds_of_all_threads(begun) - before;
     let labels = table.of_case.iter().map(|place| place.map_or(-1, |it| it as i64));
     println!("{{\"seconds\": {seconds}, \"labels\": {:?}}}", labels.collect::<Vec<_>>());
 }

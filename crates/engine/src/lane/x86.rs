@@ -152,7 +152,8 @@ impl Mask for Mask4 {
 /// What both widths do alike, with the integer and the floating forms of their registers.
 macro_rules! lanes_alike {
     (
-        $width:literal, $wide:ident, $splat:ident, $or:ident, $right:ident, $left:ident, $to_integer:ident, $to_double:ident, $andnot:ident, $sqrt:ident
+        $width:literal, $wide:ident, $splat:ident, $or:ident, $right:ident, $left:ident,
+        $to_integer:ident, $to_double:ident, $andnot:ident, $sqrt:ident
     ) => {
         const WIDTH: usize = $width;
         const ZERO: Self = Self::from_array([0.0; $width]);
