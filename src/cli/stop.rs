@@ -4,7 +4,7 @@ use std::sync::Mutex;
 use std::thread;
 
 use super::failure::Failure;
-use super::terminal::{flush, notify};
+use super::terminal::notify_at_last;
 
 /// Gives the message.
 type Message = Box<dyn Fn() -> String + Send>;
@@ -34,8 +34,8 @@ fn listen() -> Result<(), Failure> {
         if let Some(signal) = signals.forever().next() {
             let message = MESSAGE.lock().unwrap_or_else(|it| it.into_inner());
             // The line of the terminal may hold a bar, or ^C.
-            notify(&format!("\ncapsulemap: {}", message.as_ref().map_or(String::new(), |it| it())));
-            flush();
+            let line = || message.as_ref().map_or(String::new(), |it| it());
+            notify_at_last(|| format!("\ncapsulemap: {}", line()));
             if emulate_default_handler(signal).is_err() {
                 std::process::exit(128 + signal);
             }

@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::io::Write;
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, channel, sync_channel};
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Mutex, MutexGuard, OnceLock};
 use std::thread;
 use std::time::Duration;
 
@@ -53,30 +53,69 @@ pub fn notify(line: &str) {
 
 /// Does something that writes to standard error, in its turn and without waiting for it.
 pub fn in_turn(turn: Turn) {
-    let Some(messages) = messages() else { return turn() };
-    let mut dropped = messages.dropped.lock().unwrap_or_else(|it| it.into_inner());
-    let count = *dropped;
-    let turn: Turn = match count {
-        0 => turn,
-        _ => Box::new(move || {
-            write_line(&format!("({count} messages before this one were not read in time)"));
-            turn();
-        }),
-    };
-    *dropped = match messages.turns.try_send(turn) {
-        Ok(()) => 0,
-        Err(TrySendError::Full(_) | TrySendError::Disconnected(_)) => count + 1,
-    };
+    match messages() {
+        Some(messages) => messages.send(&mut messages.dropped(), turn),
+        None => turn(),
+    }
 }
 
 /// Waits until all messages are written, but not for long.
 pub fn flush() {
+    let (turn, is_done) = mark();
+    in_turn(turn);
+    let _ = is_done.recv_timeout(PATIENCE);
+}
+
+/// Prints the last line of a program that is about to end, and waits until it is written, but not for long. Threads
+/// that are still at work have no message after it: they wait for the end.
+pub fn notify_at_last(line: impl FnOnce() -> String) {
+    let mut dropped = messages().map(Messages::dropped);
+    // Only now, as no message can come between what it says and the line.
+    let line = visible(&line()).into_owned();
+    let (turn, is_done) = mark();
+    let said: Turn = Box::new(move || {
+        write_line(&line);
+        turn();
+    });
+    match (messages(), &mut dropped) {
+        (Some(messages), Some(dropped)) => messages.send(dropped, said),
+        _ => said(),
+    }
+    let _ = is_done.recv_timeout(PATIENCE);
+    std::mem::forget(dropped);
+}
+
+/// Something to do in its turn, and the way to know that it is done.
+fn mark() -> (Turn, Receiver<()>) {
     let (done, is_done) = channel();
-    in_turn(Box::new(move || {
+    let turn: Turn = Box::new(move || {
         // The receiver is gone once the time is over.
         let _ = done.send(());
-    }));
-    let _ = is_done.recv_timeout(PATIENCE);
+    });
+    (turn, is_done)
+}
+
+impl Messages {
+    /// The messages dropped since one was last taken.
+    fn dropped(&self) -> MutexGuard<'_, u64> {
+        self.dropped.lock().unwrap_or_else(|it| it.into_inner())
+    }
+
+    /// Sends `turn` to the thread, behind a word on the messages that were `dropped` before it.
+    fn send(&self, dropped: &mut u64, turn: Turn) {
+        let count = *dropped;
+        let turn: Turn = match count {
+            0 => turn,
+            _ => Box::new(move || {
+                write_line(&format!("({count} messages before this one were not read in time)"));
+                turn();
+            }),
+        };
+        *dropped = match self.turns.try_send(turn) {
+            Ok(()) => 0,
+            Err(TrySendError::Full(_) | TrySendError::Disconnected(_)) => count + 1,
+        };
+    }
 }
 
 /// The way to the thread; none if the system has no thread for it.
