@@ -161,8 +161,8 @@ pub trait Model: Debug + Send + Sync {
     /// What it says of itself.
     fn description(&self) -> &'static Description;
 
-    /// How many coordinates a point of its section has.
-    fn dimension(&self) -> usize;
+    /// What does not fit together in what it says of itself, or between that and the system, each in a sentence.
+    fn faults(&self) -> Vec<String>;
 
     /// What is to be said of an orbit beside its numbers, in sentences.
     fn remarks(&self, parameters: &Parameters, orbit: &Orbit) -> Vec<String>;

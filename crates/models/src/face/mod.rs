@@ -1,5 +1,6 @@
 //! What makes a system of the engine a model: its description, and how what the engine computes of it is told by that.
 
+mod faults;
 mod followed;
 mod stretch;
 
@@ -12,6 +13,7 @@ use crate::description::{Description, Outputs, Parameter, Parameters, Section, S
 use crate::motion::branch::{Found, Request};
 use crate::motion::{Case, Orbit, Sensitivity, Setting};
 
+pub use faults::faults;
 pub use followed::{AtEvent, AtSection, Followed, followed, simulate};
 pub use stretch::{arc, samples};
 
@@ -23,7 +25,7 @@ pub trait Face<const D: usize>: System<D> + 'static {
     /// The system with these parameters, whose drive is at `phase` at the section [rad].
     fn of(parameters: &Parameters, phase: f64) -> Self;
 
-    /// The parameter that is described so.
+    /// The parameter that is described so; of a system by [`own_system!`](capsulemap_engine::own_system) the name of its field.
     fn which(parameter: Parameter) -> Self::Parameter;
 
     /// The state that is described so.

@@ -93,8 +93,8 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
         M::description()
     }
 
-    fn dimension(&self) -> usize {
-        D
+    fn faults(&self) -> Vec<String> {
+        face::faults::<M, D>()
     }
 
     fn remarks(&self, parameters: &Parameters, orbit: &Orbit) -> Vec<String> {

@@ -20,7 +20,7 @@ static OTHERS: RwLock<Vec<&'static dyn Model>> = RwLock::new(Vec::new());
 pub enum NotRegistered {
     /// A model of this name is there already.
     NameTaken(&'static str),
-    /// Its description does not fit together: its name, and all faults.
+    /// Its description does not fit together, or not with the system: its name, and all faults.
     Unfit(&'static str, Vec<String>),
 }
 
@@ -42,10 +42,10 @@ impl std::error::Error for NotRegistered {}
 /// Makes a model known to studies, which name it by `model = "..."`.
 ///
 /// # Errors
-/// Where another has its name, or its description does not fit together ([`Description::faults`]).
+/// Where another has its name, or its description does not fit together or not with the system ([`Model::faults`]).
 pub fn register(model: &'static dyn Model) -> Result<(), NotRegistered> {
     let description = model.description();
-    let faults = description.faults(model.dimension());
+    let faults = model.faults();
     if !faults.is_empty() {
         return Err(NotRegistered::Unfit(description.name, faults));
     }

@@ -2,6 +2,7 @@
 
 mod arcs;
 mod described;
+mod faults;
 mod forces;
 mod printable;
 mod sampled;
