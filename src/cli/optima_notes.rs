@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::readable::{count, counted};
-use crate::campaign::{Answer, Robustness, Searched, Tolerances};
+use crate::campaign::{Answer, Robustness, Row, Searched, Tolerances};
 
 /// How many points were drawn as starts, and what was found and does not count.
 pub fn write_starts(text: &mut String, searched: &Searched, drawn: Option<[usize; 2]>) {
@@ -62,18 +62,20 @@ pub fn write_limits(text: &mut String, answer: &Answer) {
     let [budget, speed] = answer.limits;
     if let Some(most) = budget {
         let (of, unit) = (answer.of.name(), answer.of.unit());
-        let _ = writeln!(
-            text,
-            "budget: {of} of {most:e} {unit} at most, which leaves no motion out of the front"
-        );
+        let kept = of_the_front(answer, |row| row.price <= most);
+        let _ = writeln!(text, "budget: {of} of {most:e} {unit} at most, {kept}");
     }
     if let Some(least) = speed {
-        let _ = writeln!(
-            text,
-            "speed wanted: {} mm/s at least, which leaves no motion out of the front",
-            1e3 * least
-        );
+        let kept = of_the_front(answer, |row| answer.direction.of(row.speed) >= least);
+        let _ = writeln!(text, "speed wanted: {} mm/s at least, {kept}", 1e3 * least);
     }
+}
+
+/// How many motions of the front keep a limit, which chooses among them and leaves none out of it.
+fn of_the_front(answer: &Answer, keeps: impl Fn(&Row) -> bool) -> String {
+    let kept = answer.front.iter().filter(|row| keeps(row)).count();
+    let all = counted(answer.front.len(), "motion");
+    format!("which {} of the front's {all} keep; the front lists the others, too", count(kept))
 }
 
 /// A share in percent, without what rounding adds.
