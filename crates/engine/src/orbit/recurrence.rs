@@ -12,6 +12,8 @@ const EXACT: f64 = 1e-2;
 const LONGEST_TOLD: usize = 64;
 /// A longer period is nearer than a shorter one if its distance is below this share.
 const DISTINCT: f64 = 0.1;
+/// So many times what a quotient is compared with, it is on the same side before it is divided: far beyond rounding.
+const CLEARLY: f64 = 2.0;
 /// A motion below this share of the largest one seen is measured against that largest one.
 const FADED: f64 = 1e-3;
 
@@ -35,6 +37,8 @@ pub struct Recurrence<const D: usize> {
     /// So many points are kept.
     memory: usize,
     points: VecDeque<[f64; D]>,
+    /// Sizes of the last points, as many as the longest period has.
+    sizes: VecDeque<f64>,
     /// For each period, how many points in a row have repeated to tolerance.
     repeats: Vec<usize>,
     largest: f64,
@@ -53,6 +57,7 @@ impl<const D: usize> Recurrence<D> {
             metric,
             memory: (2 * longest).max((WINDOW - 1) * longest.min(LONGEST_TOLD)) + 1,
             points: VecDeque::new(),
+            sizes: VecDeque::new(),
             repeats: vec![0; longest + 1],
             largest: 0.0,
             scale: 0.0,
@@ -89,12 +94,20 @@ impl<const D: usize> Recurrence<D> {
         }
         let scale = self.update_scale(&point);
         let newest = self.points.len() - 1;
-        let mut found = None;
+        let beyond = CLEARLY * self.tolerance * scale;
+        let (mut found, mut nearest) = (None, f64::INFINITY);
         self.nearest = None;
         for k in 1..=self.longest.min(newest) {
-            let distance = self.distance(newest, newest - k, scale);
+            let apart = self.metric.distance(&point, &self.points[newest - k]);
+            // Most points are neither near nor a repeat, which takes no division to see.
+            if apart > CLEARLY * DISTINCT * nearest && apart > beyond {
+                self.repeats[k] = 0;
+                continue;
+            }
+            let distance = if apart == 0.0 { 0.0 } else { apart / scale };
             if self.nearest.is_none_or(|(_, nearest)| distance < DISTINCT * nearest) {
                 self.nearest = Some((k, distance));
+                nearest = apart;
             }
             if distance > self.tolerance {
                 self.repeats[k] = 0;
@@ -121,10 +134,13 @@ impl<const D: usize> Recurrence<D> {
     }
 
     fn update_scale(&mut self, point: &[f64; D]) -> f64 {
-        self.largest = self.largest.max(self.metric.size(point));
-        let recent = self.points.iter().rev().take(self.longest);
-        let recent = recent.map(|point| self.metric.size(point));
-        self.scale = recent.fold(FADED * self.largest, f64::max);
+        let size = self.metric.size(point);
+        self.largest = self.largest.max(size);
+        self.sizes.push_back(size);
+        if self.sizes.len() > self.longest {
+            self.sizes.pop_front();
+        }
+        self.scale = self.sizes.iter().copied().fold(FADED * self.largest, f64::max);
         self.scale
     }
 
@@ -167,5 +183,38 @@ mod tests {
         assert_eq!(period_of(|n| 1.0 + 1e-8 * (n % 2) as f64, 100), Some(2));
         assert_eq!(period_of(|n| 1.0 + 1e-10 * (n % 2) as f64, 100), Some(2));
         assert_eq!(period_of(|n| 1.0 + 1e-14 * (n % 2) as f64, 100), Some(1));
+    }
+
+    /// By the definition, with a quotient for each point.
+    fn nearest_of(points: &[[f64; 3]], metric: &Metric<3>, scale: f64) -> Option<(usize, f64)> {
+        let (last, before) = points.split_last()?;
+        let mut nearest = None;
+        for (k, point) in (1..=16).zip(before.iter().rev()) {
+            let apart = metric.relative(&std::array::from_fn(|i| last[i] - point[i]), scale);
+            if nearest.is_none_or(|(_, nearest)| apart < DISTINCT * nearest) {
+                nearest = Some((k, apart));
+            }
+        }
+        nearest
+    }
+
+    #[test]
+    fn the_nearest_point_is_that_of_all_quotients() {
+        let metric = Metric { scales: [3.0, 1.0, 1e-3] };
+        // Chaos, windows of periods 3 and 5 and the way into them, and rest.
+        for rate in [3.99, 3.83, 3.7389, 3.5, 0.0] {
+            let mut recurrence = Recurrence::new(16, 1e-11, metric);
+            let (mut points, mut x) = (Vec::new(), 0.3);
+            for _ in 0..300 {
+                x *= rate * (1.0 - x);
+                points.push([x, x * x, 1.0 - x]);
+                recurrence.meet([x, x * x, 1.0 - x]);
+                let scale = recurrence.scale();
+                let recent = points.iter().rev().take(16).map(|point| metric.size(point));
+                let all = metric.largest(&points);
+                assert_eq!(scale, recent.fold(FADED * all, f64::max));
+                assert_eq!(recurrence.nearest(), nearest_of(&points, &metric, scale));
+            }
+        }
     }
 }
