@@ -25,7 +25,7 @@ const WORTHWHILE: usize = 4;
 const HALF: usize = 2;
 
 /// So many times as many aperiodic cases as lanes are followed together, so that few lanes are empty while the last end.
-const APERIODIC: usize = 3;
+const APERIODIC: usize = 12;
 /// Cases that wait to be concluded for each lane of a vector, while all lanes are taken: among many are some of equal length.
 const CONCLUDING: usize = 8;
 
