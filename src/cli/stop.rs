@@ -34,8 +34,9 @@ fn listen() -> Result<(), Failure> {
         if let Some(signal) = signals.forever().next() {
             let message = MESSAGE.lock().unwrap_or_else(|it| it.into_inner());
             // The line of the terminal may hold a bar, or ^C.
-            let line = || message.as_ref().map_or(String::new(), |it| it());
-            notify_at_last(|| format!("\ncapsulemap: {}", line()));
+            notify_at_last(|| {
+                format!("\ncapsulemap: {}", message.as_ref().map_or(String::new(), |it| it()))
+            });
             if emulate_default_handler(signal).is_err() {
                 std::process::exit(128 + signal);
             }

@@ -69,18 +69,13 @@ pub fn flush() {
 /// Prints the last line of a program that is about to end, and waits until it is written, but not for long. Threads
 /// that are still at work have no message after it: they wait for the end.
 pub fn notify_at_last(line: impl FnOnce() -> String) {
-    let mut dropped = messages().map(Messages::dropped);
+    let Some(messages) = messages() else { return write_line(&visible(&line())) };
+    let mut dropped = messages.dropped();
     // Only now, as no message can come between what it says and the line.
     let line = visible(&line()).into_owned();
+    messages.send(&mut dropped, Box::new(move || write_line(&line)));
     let (turn, is_done) = mark();
-    let said: Turn = Box::new(move || {
-        write_line(&line);
-        turn();
-    });
-    match (messages(), &mut dropped) {
-        (Some(messages), Some(dropped)) => messages.send(dropped, said),
-        _ => said(),
-    }
+    messages.send(&mut dropped, turn);
     let _ = is_done.recv_timeout(PATIENCE);
     std::mem::forget(dropped);
 }

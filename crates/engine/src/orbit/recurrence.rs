@@ -95,19 +95,20 @@ impl<const D: usize> Recurrence<D> {
         let scale = self.update_scale(&point);
         let newest = self.points.len() - 1;
         let beyond = CLEARLY * self.tolerance * scale;
-        let (mut found, mut nearest) = (None, f64::INFINITY);
+        let (mut found, mut least_apart) = (None, f64::INFINITY);
         self.nearest = None;
         for k in 1..=self.longest.min(newest) {
-            let apart = self.metric.distance(&point, &self.points[newest - k]);
+            let difference = self.difference(newest, newest - k);
+            let apart = self.metric.size(&difference);
             // Most points are neither near nor a repeat, which takes no division to see.
-            if apart > CLEARLY * DISTINCT * nearest && apart > beyond {
+            if apart > CLEARLY * DISTINCT * least_apart && apart > beyond {
                 self.repeats[k] = 0;
                 continue;
             }
-            let distance = if apart == 0.0 { 0.0 } else { apart / scale };
+            let distance = self.metric.relative(&difference, scale);
             if self.nearest.is_none_or(|(_, nearest)| distance < DISTINCT * nearest) {
                 self.nearest = Some((k, distance));
-                nearest = apart;
+                least_apart = apart;
             }
             if distance > self.tolerance {
                 self.repeats[k] = 0;
@@ -129,7 +130,8 @@ impl<const D: usize> Recurrence<D> {
         if newest < 2 * k {
             return false;
         }
-        let ratio = now / self.distance(newest - k, newest - 2 * k, scale);
+        let difference = self.difference(newest - k, newest - 2 * k);
+        let ratio = now / self.metric.relative(&difference, scale);
         ratio < 1.0 && now * ratio / (1.0 - ratio) <= self.tolerance
     }
 
@@ -144,10 +146,11 @@ impl<const D: usize> Recurrence<D> {
         self.scale
     }
 
-    /// How far two section points are apart, relative to the scale [-].
-    fn distance(&self, a: usize, b: usize, scale: f64) -> f64 {
+    /// The difference of two section points, by their places.
+    #[inline]
+    fn difference(&self, a: usize, b: usize) -> [f64; D] {
         let (a, b) = (&self.points[a], &self.points[b]);
-        self.metric.relative(&std::array::from_fn(|i| a[i] - b[i]), scale)
+        std::array::from_fn(|i| a[i] - b[i])
     }
 }
 
