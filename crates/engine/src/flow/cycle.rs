@@ -82,7 +82,7 @@ pub fn cycle<L: Lane, S: Switched<L>>(
         }
         if step.arrives.lane(0) {
             let duration = motion.time;
-            motion.begin_cycle(L::Mask::splat(true));
+            motion.begin_cycle(system, L::Mask::splat(true));
             return Ok(duration);
         }
     }

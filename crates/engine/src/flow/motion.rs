@@ -171,8 +171,9 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
 
     /// Starts the next cycle where `mask`: time counts from zero again.
     #[inline(always)]
-    pub fn begin_cycle(&mut self, mask: L::Mask) {
+    pub fn begin_cycle(&mut self, system: &S, mask: L::Mask) {
         self.time = L::select(mask, L::splat(0.0), self.time);
+        system.begin_cycle(mask, &mut self.mode);
     }
 
     /// Where a motion cannot go on; [`Motion::breakdown`] tells why.

@@ -6,7 +6,7 @@ use std::fmt::Debug;
 use crate::lane::{Lane, Mask, Series, series};
 
 /// The most guards a system may have, the section of an autonomous one included.
-pub const MAX_GUARDS: usize = 4;
+pub const MAX_GUARDS: usize = 8;
 
 /// For each guard, how many leading coefficients of its series are known to vanish where a mode begins.
 ///
@@ -86,6 +86,10 @@ pub trait Switched<L: Lane> {
     fn start(&self, _time: L, _state: &mut Self::State) -> Self::Mode {
         Self::Mode::default()
     }
+
+    /// Begins the next cycle of the drive where `mask`: what a mode counts within a cycle, as the edges that have passed, starts again.
+    #[inline(always)]
+    fn begin_cycle(&self, _mask: L::Mask, _mode: &mut Self::Mode) {}
 
     /// Writes the series of the motion in `mode` from `state` at `time` into `jet`, all of it.
     fn expand(&self, mode: &Self::Mode, time: L, state: &Self::State, jet: &mut Self::Jet);

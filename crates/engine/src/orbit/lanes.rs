@@ -261,7 +261,7 @@ impl<N: Lane, M: System<D>, A, const D: usize> Lanes<N, M, A, D> {
         }
         if arrives.any() {
             let durations = self.motion.time;
-            self.motion.begin_cycle(arrives);
+            self.motion.begin_cycle(&self.system, arrives);
             while let Some(lane) = take_lowest(&mut ended) {
                 let (steps, duration) = (self.steps(lane), durations.lane(lane));
                 self.began[lane] = self.steps;

@@ -44,7 +44,7 @@ fn largest_defect<S: Field>(system: &S, start: S::State, cycles: u32) -> f64 {
             size = size.max((weight * x).abs());
         }
         if motion.time >= period {
-            motion.begin_cycle(true);
+            motion.begin_cycle(system, true);
             done += 1;
         }
     }

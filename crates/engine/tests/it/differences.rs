@@ -33,7 +33,7 @@ where
                 break;
             }
         }
-        motion.begin_cycle(true);
+        motion.begin_cycle(system, true);
     }
     S::point(&motion.state)
 }

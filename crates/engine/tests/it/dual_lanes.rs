@@ -39,7 +39,7 @@ fn alone(case: &Case) -> Vec<Bits> {
     while found.len() < CYCLES {
         motion.step(&system, period, TOLERANCE, &mut step);
         if period.le(motion.time) {
-            motion.begin_cycle(true);
+            motion.begin_cycle(&system, true);
             found.push(bits(&Capsule::point(&motion.state), 0));
         }
     }
@@ -97,7 +97,7 @@ fn side_by_side<L: Lane>(cases: &[Case]) -> Vec<Vec<Bits>> {
             }
         }
         if ended.any() {
-            motion.begin_cycle(ended);
+            motion.begin_cycle(&system, ended);
         }
     }
     found

@@ -163,7 +163,7 @@ impl<R: Reading> Work for Among<'_, R> {
             if ended.lane(last) {
                 states.push(section(motion.state.lane(last)));
             }
-            motion.begin_cycle(ended);
+            motion.begin_cycle(&system, ended);
         }
         (states, events)
     }

@@ -41,7 +41,7 @@ fn alone(p: &Parameters, start: State<f64>) -> (Vec<[u64; 4]>, Vec<u64>) {
             events.push(motion.time.to_bits());
         }
         if motion.time >= p.drive_period() {
-            motion.begin_cycle(true);
+            motion.begin_cycle(&system, true);
             states.push(bits(&motion.state));
         }
     }
@@ -99,7 +99,7 @@ fn side_by_side<L: Lane>(cases: &[(Parameters, State<f64>)]) -> Vec<(Vec<[u64; 4
             }
         }
         if ended.any() {
-            motion.begin_cycle(ended);
+            motion.begin_cycle(&system, ended);
         }
     }
     found

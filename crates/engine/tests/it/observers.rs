@@ -58,7 +58,7 @@ fn alone(case: &Case) -> [u64; 17] {
         motion.step(&system, system.period(), TOLERANCE, &mut step);
         account.see(&system, &step);
         if step.arrives {
-            motion.begin_cycle(true);
+            motion.begin_cycle(&system, true);
             cycles += 1;
         }
     }
@@ -109,7 +109,7 @@ fn side_by_side<L: Lane>(cases: &[Case]) -> Vec<[u64; 17]> {
                 }
             }
         }
-        motion.begin_cycle(step.arrives);
+        motion.begin_cycle(&system, step.arrives);
     }
     found
 }

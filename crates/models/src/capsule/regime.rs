@@ -1,6 +1,6 @@
 //! The regimes of the capsule as printed, and what follows each of them.
 
-use capsulemap_engine::flow::Zeros;
+use capsulemap_engine::flow::{MAX_GUARDS, Zeros};
 use capsulemap_engine::lane::{Lane, Mask, series, side_by_side};
 
 use super::drag::Drag;
@@ -149,6 +149,14 @@ impl<L: Lane> Next<L> {
     }
 }
 
+/// The zeros of a mode in which guard 1 alone starts at zero, with so many leading coefficients.
+#[inline(always)]
+fn zeros_of_slip<L: Lane>(power: f64) -> Zeros<L> {
+    let mut zeros = [L::splat(0.0); MAX_GUARDS];
+    zeros[1] = L::splat(power);
+    zeros
+}
+
 /// What decides how the regimes follow each other: the constants of the capsule.
 ///
 /// Its functions are called at events only. They are not inlined, as numbers with derivatives of derivatives
@@ -226,7 +234,9 @@ impl<L: Lane> Rules<'_, L> {
         let first = L::select(moving & rests, self.drag.onset_zeros(), first);
         let second = L::select((frozen & !forward) | moving, power, none);
         let third = L::select(creeping & rests, L::splat(1.0), none);
-        [none, first, second, third]
+        let mut zeros = [none; MAX_GUARDS];
+        (zeros[1], zeros[2], zeros[3]) = (first, second, third);
+        zeros
     }
 
     /// Obeys the guard of the contact where `due`.
@@ -298,8 +308,9 @@ impl<L: Lane> Rules<'_, L> {
             [Regime::Moving, Regime::Held, Regime::Creeping].map(|it| due & before.is(it));
         let breaks = self.drag.at_onset.lt(self.force.at(state).abs());
         let leaves = PrintedMode::new(closed, Regime::Moving, side, side);
-        let leaves = Next::new(leaves, [zero, L::splat(1.0), zero, zero]);
-        let holds = Next::new(PrintedMode::new(closed, Regime::Held, zero, side), [zero; 4]);
+        let leaves = Next::new(leaves, zeros_of_slip(1.0));
+        let holds =
+            Next::new(PrintedMode::new(closed, Regime::Held, zero, side), [zero; MAX_GUARDS]);
         let stopped = Next::select(breaks, leaves, holds);
         let freezes = PrintedMode::new(closed, Regime::Frozen, zero, zero);
         let next = Next::select(held, self.reached(freezes, before, state, 1.0), met);
@@ -315,11 +326,10 @@ impl<L: Lane> Rules<'_, L> {
         state: &State<L>,
         met: Next<L>,
     ) -> Next<L> {
-        let zero = L::splat(0.0);
         let PrintedMode { closed, slip, side, .. } = *before;
         let [held, creeping] = [Regime::Held, Regime::Creeping].map(|it| due & before.is(it));
         let leaves = PrintedMode::new(closed, Regime::Moving, side, side);
-        let leaves = Next::new(leaves, [zero, L::splat(2.0), zero, zero]);
+        let leaves = Next::new(leaves, zeros_of_slip(2.0));
         let slides = PrintedMode::new(closed, Regime::Moving, slip, side);
         let next = Next::select(held, leaves, met);
         Next::select(creeping, self.reached(slides, before, state, 2.0), next)

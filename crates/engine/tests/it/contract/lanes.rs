@@ -98,7 +98,7 @@ fn side_by_side<L: Lane, M: Subject<D>, const D: usize>(cases: &[Case<M, D>]) ->
                 course.failure = Some(Reason::TooManySteps);
             }
         }
-        motion.begin_cycle(step.arrives);
+        motion.begin_cycle(&system, step.arrives);
     }
     found
 }
