@@ -90,7 +90,7 @@ impl Work for Integrate<'_> {
             let ended = periods.le(motion.time);
             due = ended.bits();
             if due != 0 {
-                motion.begin_cycle(ended);
+                motion.begin_cycle(&system, ended);
             }
         }
     }

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use super::count::count;
 use super::error::CampaignError;
 use super::refined_motion::{Led, RefinedMotion, Slopes, Start};
-use crate::description::{Outputs, Section};
+use crate::description::{Outputs, Parameter, Presence, Section};
 use crate::quantity::printable::printable;
 use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
 use crate::study::Study;
@@ -275,7 +275,7 @@ impl From<Real> for f64 {
 impl Written {
     fn of(motion: &RefinedMotion) -> Written {
         let Slopes { sensitivity, stationarity, held_by } = &motion.slopes;
-        let (parameters, outputs) = (motion.parameters.each(), motion.outputs.each());
+        let (parameters, outputs) = (motion.parameters.stated(), motion.outputs.each());
         let slopes = sensitivity.iter().map(|(it, both)| (it.symbol(), both.map(Real::from)));
         Written {
             from: motion.from,
@@ -298,8 +298,11 @@ impl Written {
             return None;
         }
         // Laws of friction and resistance do not vary.
-        let mut parameters = study.base.clone();
-        for parameter in study.base.model().parameters() {
+        let mut parameters = study.with_parts();
+        let kept = study.base.model().parameters();
+        let is_part =
+            |it: &Parameter| it.presence() == Presence::Always || study.with_parts().is_given(*it);
+        for parameter in kept.filter(is_part) {
             parameters[parameter] = (*self.parameters.get(parameter.symbol())?).into();
         }
         let mut outputs = Outputs::unknown(study.base.model());

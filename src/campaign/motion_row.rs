@@ -4,7 +4,7 @@ use super::margins::Margins;
 use super::mean_errors::MeanErrors;
 use super::refined_motion::{RefinedMotion, Slopes};
 use super::robustness::Robustness;
-use crate::description::{Description, Output, Parameters, Section, State};
+use crate::description::{Description, Output, Section, State};
 use crate::motion::Case;
 use crate::of::default_model;
 use crate::orbit::{Outcome, Protocol};
@@ -169,8 +169,8 @@ pub fn command(case: &Case, protocol: &Protocol) -> String {
     if parameters.model() != default_model() {
         text += &format!(" --model {}", parameters.model().name);
     }
-    for (parameter, value) in parameters.each() {
-        if value != parameter.default_value() {
+    for (parameter, value) in parameters.stated() {
+        if value != parameter.default_value() || parameters.is_given(parameter) {
             text += &format!(" --set {}={value:?}", parameter.symbol());
         }
     }
@@ -188,11 +188,8 @@ pub fn command(case: &Case, protocol: &Protocol) -> String {
     }
     let Protocol { tolerance, max_cycles, .. } = protocol;
     text += &format!(" --tolerance {tolerance:?} --max-cycles {max_cycles}");
-    let usual = Parameters::of(parameters.model());
-    for ((name, chosen), (_, usual)) in parameters.choices().zip(usual.choices()) {
-        if chosen != usual {
-            text += &format!(" --{} {chosen}", name.replace('_', "-"));
-        }
+    for (name, chosen) in parameters.unusual_choices() {
+        text += &format!(" --{} {chosen}", name.replace('_', "-"));
     }
     text
 }

@@ -11,9 +11,9 @@ use super::phases::Phases;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
 use crate::capsule::description::CAPSULE;
-use crate::capsule::{self, CapsuleParameters as _, Resistance, Switching};
+use crate::capsule::{self, CapsuleParameters as _, DriveKind, Reaction, Resistance, Switching};
 use crate::description::{Description, Parameter, Parameters, Remark, State};
-use crate::explore::{case_json, remarks};
+use crate::explore::{case_json, remarks, told};
 use crate::motion::{Case, Orbit, Simulation, SimulationSize};
 use crate::of::{all_models, default_model, model_called, model_of, settle_case};
 use crate::orbit::Protocol;
@@ -37,14 +37,14 @@ pub struct Simulate {
     /// Take a case of this study, or of the study in this file of results, with its parameters, its start and the study's protocol.
     #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2",
         "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles", "max_steps",
-        "friction_switching", "resistance"])]
+        "friction_switching", "resistance", "drive", "drive_reaction"])]
     study: Option<PathBuf>,
     /// Its number, counted from 0 with the last axis fastest, as in the reports of failures.
     #[arg(long, requires = "study")]
     case: Option<usize>,
     /// Another model than the capsule, of those that this program knows; its parameters are given by --set.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["study", "omega", "p_d", "k2", "delta",
-        "friction_switching", "resistance"])]
+        "friction_switching", "resistance", "drive", "drive_reaction"])]
     model: Option<String>,
     /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
@@ -58,7 +58,8 @@ pub struct Simulate {
     /// Gap between mass and stop, as "3.5 mm".
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     delta: Option<String>,
-    /// Any parameter (m1, m2, k1, c, k2, delta, p_d, omega, mu_s, mu_d, v_s, g, c1, c2).
+    /// Any parameter: m1, m2, k1, c, k2, delta, p_d, omega, mu_s, mu_d, v_s, g, c1, c2, and those of the family of capsules, as
+    /// duty, incline or k3 (studies/README.md has all).
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Start of the motion (r, y1, x2, y2); at rest by default.
@@ -87,6 +88,13 @@ pub struct Simulate {
     /// mu_s and mu_d given alone is both; medium is c1 y2 + c2 |y2| y2 without rest.
     #[arg(long, value_parser = named(&Resistance::NAMES), default_value = "coulomb-stribeck")]
     resistance: Resistance,
+    /// How the force on the mass depends on the phase of the drive: p_d cos(phase); p_0 + p_d for a share `duty` of the period, then
+    /// p_0 + p_low, with edges that last a share `rise` of it in a trapezoid; or p_0 + p_d cos(phase) + p_2 cos(2 phase + phase_2).
+    #[arg(long, value_parser = named(&DriveKind::NAMES), default_value = "harmonic")]
+    drive: DriveKind,
+    /// What takes up the reaction of the drive: none, as of an external field, or the capsule, as of an actuator in it.
+    #[arg(long, value_parser = named(&Reaction::NAMES), default_value = "none")]
+    drive_reaction: Reaction,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -169,6 +177,8 @@ impl Simulate {
         if *model == CAPSULE {
             parameters.switch_by(self.friction_switching);
             parameters.resist_by(self.resistance);
+            parameters.drive_by(self.drive);
+            parameters.react_on(self.drive_reaction);
         }
         let given = self.given(model, &mut faults);
         set_given(&mut parameters, &given, &mut faults);
@@ -182,6 +192,8 @@ impl Simulate {
             faults.push(format!("--tolerance {}: must lie between 1e-15 and 1e-3", self.tolerance));
         }
         faults.extend(parameters.faults().iter().map(ToString::to_string));
+        let conflicts = (model.rules.conflicts)(&parameters, section_phase);
+        faults.extend(conflicts.into_iter().map(|it| it.text));
         if !faults.is_empty() {
             return Err(Failure::requests(&faults));
         }
@@ -309,10 +321,15 @@ impl ShownCoordinate {
 /// What a person wants to see first.
 fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> String {
     let given: Vec<String> = parameters
-        .each()
+        .stated()
         .map(|(parameter, value)| format!("{} = {value}", parameter.symbol()))
         .collect();
-    let mut text = format!("{} (SI)\n\n", given.join(", "));
+    let mut text = format!("{} (SI)\n", given.join(", "));
+    if let Some(member) = (parameters.model().rules.member)(parameters) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "member of the family: {member}");
+    }
+    text.push('\n');
     write_section(&mut text, parameters.model(), simulation);
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{} events; --json lists them", simulation.events.len());
@@ -324,7 +341,7 @@ fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> S
         let _ = writeln!(text, "  {failure}");
         return text;
     }
-    for (output, value) in orbit.outputs.each() {
+    for (output, value) in told(parameters, orbit) {
         let unit = if output.unit() == "1" { "" } else { output.unit() };
         let _ = writeln!(text, "  {:<26} {:>16.9e} {unit}", output.name(), value);
     }

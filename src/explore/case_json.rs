@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::description::{Description, Parameters, State};
+use crate::description::{Description, Output, Parameters, State};
 use crate::motion::{Event, Orbit, Sample, Simulation};
 use crate::of::{default_model, model_of};
 use crate::orbit::{Certificate, Outcome, Proof};
@@ -19,7 +19,7 @@ pub fn case_json(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit
         "section": section.collect::<Vec<_>>(),
         "events": events.collect::<Vec<_>>(),
         "failure": failure_json(simulation),
-        "orbit": orbit_json(orbit),
+        "orbit": orbit_json(parameters, orbit),
     });
     if model != default_model() {
         object["model"] = json!(model.name);
@@ -29,7 +29,7 @@ pub fn case_json(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit
 
 fn parameters_json(parameters: &Parameters) -> Value {
     let mut object = Map::new();
-    for (parameter, value) in parameters.each() {
+    for (parameter, value) in parameters.stated() {
         object.insert(parameter.symbol().to_owned(), json!(value));
     }
     for (name, option) in parameters.choices() {
@@ -66,12 +66,12 @@ fn failure_json(simulation: &Simulation) -> Value {
     simulation.failure.as_ref().map_or(Value::Null, |failure| json!(failure.to_string()))
 }
 
-fn orbit_json(orbit: &Orbit) -> Value {
+fn orbit_json(parameters: &Parameters, orbit: &Orbit) -> Value {
     let mut object = Map::new();
     object.insert(OUTCOME.name.to_owned(), json!(orbit.outcome));
     object.insert(PERIOD.name.to_owned(), json!(orbit.period));
     object.insert(CYCLES.name.to_owned(), json!(orbit.cycles));
-    for (output, value) in orbit.outputs.each() {
+    for (output, value) in told(parameters, orbit) {
         object.insert(output.name().to_owned(), json!(value));
     }
     let Certificate { proof, multipliers, neutral, .. } = &orbit.certificate;
@@ -82,6 +82,13 @@ fn orbit_json(orbit: &Orbit) -> Value {
     let failure = orbit.failure.as_ref().map(|failure| failure.to_string());
     object.insert("failure".to_owned(), json!(failure));
     Value::Object(object)
+}
+
+/// The outputs that there is something to tell of.
+pub fn told(parameters: &Parameters, orbit: &Orbit) -> impl Iterator<Item = (Output, f64)> + use<> {
+    let has_parts = parameters.have_optional_parts();
+    let all: Vec<(Output, f64)> = orbit.outputs.each().collect();
+    all.into_iter().filter(move |(it, _)| has_parts || !it.is_optional())
 }
 
 /// What the numbers of an orbit do not say by themselves.

@@ -9,7 +9,7 @@ mod report;
 mod request;
 mod server;
 
-pub use case_json::{case_json, remarks};
+pub use case_json::{case_json, remarks, told};
 pub use html::GENERATOR;
 pub use report::report;
 pub use request::Request;

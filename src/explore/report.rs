@@ -95,15 +95,17 @@ impl Report<'_> {
         page.table(&["", "from", "to", "unit"].map(str::to_owned), &rows);
         page.heading("What is held");
         let base = &self.study.base;
-        let all = base.each().map(|(it, value)| (Coordinate::Parameter(it), value));
+        let all = base.stated().map(|(it, value)| (Coordinate::Parameter(it), value));
         let held = all.filter(|(it, _)| !varied.contains(it));
         let rows: Vec<_> = held
             .map(|(it, value)| vec![it.name().to_owned(), number(value), unit(it).to_owned()])
             .collect();
         page.table(&["", "value", "unit"].map(str::to_owned), &rows);
-        let described = base.model().choices.iter().zip(base.choices());
-        let choices =
-            described.map(|(choice, (_, chosen))| format!("{}: {chosen}. ", choice.title));
+        let choices = base.choices().map(|(name, chosen)| {
+            let mut all = base.model().choices.iter();
+            let title = all.find(|it| it.name == name).map_or(name, |it| it.title);
+            format!("{title}: {chosen}. ")
+        });
         page.note(&format!(
             "{}Relative local error of a step: {:e}.",
             choices.collect::<String>(),

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::error::FigureError;
 use super::view::View;
-use crate::description::{Description, Parameters, SignalKind, Source, State};
+use crate::description::{Description, Parameters, Presence, SignalKind, Source, State};
 use crate::motion::{Case, Stretch};
 use crate::of::model_of;
 use crate::store::catalogue::{Entry, HISTORY_TIME, histories, impacts, section};
@@ -221,10 +221,17 @@ impl<'v, 'a> Motion<'v, 'a> {
     fn parameters(&self) -> Result<Parameters, FigureError> {
         let mut parameters = Parameters::of(self.view.model());
         for parameter in self.view.model().parameters() {
-            parameters[parameter] = self.number(parameter.symbol())?;
+            match (parameter.presence(), self.number(parameter.symbol())) {
+                (Presence::Optional, Err(_)) => {}
+                (Presence::Told, Ok(value)) if value == parameter.default_value() => {}
+                (_, value) => parameters[parameter] = value?,
+            }
         }
         for (place, choice) in self.view.model().choices.iter().enumerate() {
             let named = self.view.dataset.attributes.get(choice.name);
+            if named.is_none() && choice.is_optional {
+                continue;
+            }
             let chosen =
                 choice.options.iter().position(|it| named.is_some_and(|named| named == it));
             let Some(chosen) = chosen else {

@@ -111,7 +111,10 @@ fn add_requests(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
     if study.base.model().has_drive() {
         reals(dataset, REQUEST_PHASE, branches.iter().map(|branch| branch.section_phase));
     }
-    for parameter in study.base.model().parameters() {
+    let is_told = |it: &Parameter| {
+        branches.iter().any(|branch| branch.parameters.stated().any(|(stated, _)| stated == *it))
+    };
+    for parameter in study.base.model().parameters().filter(is_told) {
         let values = branches.iter().map(|branch| branch.parameters[parameter]);
         reals(dataset, Place::Request.of(Entry::of_parameter(parameter)), values);
     }

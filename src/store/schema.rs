@@ -194,7 +194,7 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
 /// Everything that the axes leave constant, so that a file holds every parameter of its cases.
 fn add_constants(dataset: &mut Dataset, study: &Study) {
     for constant in Coordinate::all(study.base.model()) {
-        if study.case_set.varied().contains(&constant) {
+        if study.case_set.varied().contains(&constant) || !is_told(study, constant) {
             continue;
         }
         let value = match constant {
@@ -204,6 +204,14 @@ fn add_constants(dataset: &mut Dataset, study: &Study) {
             Coordinate::SectionPhase => study.section_phase,
         };
         dataset.put(Entry::of_coordinate(constant), &[], Values::real(value));
+    }
+}
+
+/// Whether there is something to tell of a coordinate that a study holds.
+fn is_told(study: &Study, coordinate: Coordinate) -> bool {
+    match coordinate {
+        Coordinate::Parameter(parameter) => study.base.stated().any(|(it, _)| it == parameter),
+        _ => true,
     }
 }
 

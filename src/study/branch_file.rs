@@ -230,7 +230,8 @@ fn read_place(
         table.missing(&key, &expected);
         complete = false;
     }
-    complete.then_some(parameters)
+    let parts = |all: Parameters, it: &Parameter| all.with_part(*it);
+    complete.then(|| varied.iter().fold(parameters, parts))
 }
 
 fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> impl Iterator<Item = &'n str> {

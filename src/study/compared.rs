@@ -47,7 +47,7 @@ impl Study {
         let mut study = self.clone();
         for coordinate in self.case_set.varied() {
             match coordinate {
-                Coordinate::Parameter(parameter) => study.base[parameter] = other.base[parameter],
+                Coordinate::Parameter(parameter) => study.base.take(parameter, &other.base),
                 Coordinate::Start(coordinate) => study.start[coordinate] = other.start[coordinate],
                 Coordinate::StartPhase => study.start_phase = other.start_phase,
                 Coordinate::SectionPhase => study.section_phase = other.section_phase,

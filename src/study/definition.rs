@@ -5,7 +5,9 @@ use std::hash::Hash;
 use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
 use super::grid::Chain;
-use super::{Axis, CaseSet, Continuation, Direction, Drawing, Grid, Inherit, Refine, Refinement};
+use super::{
+    Axis, CaseSet, Continuation, Coordinate, Direction, Drawing, Grid, Inherit, Refine, Refinement,
+};
 use crate::description::{Description, Output, Parameters, State};
 use crate::model::Model;
 use crate::motion::Case;
@@ -69,7 +71,7 @@ impl Study {
             protocol: Protocol::default(),
             early_decision: true,
             refine: None,
-            outputs: model.outputs().collect(),
+            outputs: usual_outputs(&Parameters::of(model)),
             branches: Vec::new(),
             drawings: Vec::new(),
         }
@@ -132,9 +134,14 @@ impl Study {
         format!("{h1:016x}{h2:016x}")
     }
 
-    /// The model that it asks about.
+    /// The model that it asks about, with the parts that belong to what varies.
     pub fn model(&self) -> &'static dyn Model {
-        model_of(&self.base)
+        model_of(&self.with_parts())
+    }
+
+    /// The parameters of the study, with the parts of the equations that belong to those that vary.
+    pub fn with_parts(&self) -> Parameters {
+        with_parts(&self.base, &self.case_set.varied())
     }
 
     /// Number of cases.
@@ -178,4 +185,19 @@ impl Study {
     pub fn position(&self, index: usize) -> Vec<usize> {
         self.case_set.position(index)
     }
+}
+
+/// These parameters with the parts of the equations that belong to those among some coordinates.
+pub(super) fn with_parts(base: &Parameters, varied: &[Coordinate]) -> Parameters {
+    let parameters = varied.iter().filter_map(|it| match it {
+        Coordinate::Parameter(parameter) => Some(*parameter),
+        _ => None,
+    });
+    parameters.fold(base.clone(), Parameters::with_part)
+}
+
+/// The outputs of studies that name none: those that tell more than zero of motions with these parameters.
+pub(super) fn usual_outputs(parameters: &Parameters) -> Vec<Output> {
+    let has_parts = parameters.have_optional_parts();
+    parameters.model().outputs().filter(|it| has_parts || !it.is_optional()).collect()
 }

@@ -177,6 +177,11 @@ impl<'r, 'a> Table<'r, 'a> {
         self.reader.fault(self.place, self.path_of(key), message);
     }
 
+    /// Reports what cannot be together with other values, at `key`.
+    pub fn conflict(&self, key: &str, message: &str) {
+        self.reader.fault(self.place, self.path_of(key), message);
+    }
+
     /// The table under `key`.
     pub fn table(&self, key: &str) -> Option<Table<'r, 'a>> {
         self.entry(key)?.table()

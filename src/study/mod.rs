@@ -7,6 +7,7 @@ pub mod block;
 mod branch_file;
 pub mod case_set;
 mod compared;
+mod conflicts;
 pub mod continuation;
 pub mod document;
 pub mod drawing;

@@ -40,16 +40,26 @@ fn read_values(
     parameters: &mut Parameters,
 ) -> Vec<Parameter> {
     let mut given = Vec::new();
+    // The period of the drive stands for its frequency.
+    let period = top.model().drive_period();
+    let has_period = period.is_some_and(|it| {
+        varies(varied, it) || table.is_some_and(|table| table.entry(it.symbol()).is_some())
+    });
+    let stands_in = |it| has_period && Some(it) == top.model().drive_frequency();
     for parameter in top.model().parameters() {
         let on_axis = varies(varied, parameter);
         match table.and_then(|table| table.entry(parameter.symbol())) {
             Some(entry) if on_axis => entry.fault("is given here and on an axis"),
+            Some(entry) if stands_in(parameter) => {
+                let symbol = period.map_or("", Parameter::symbol);
+                entry.fault(format!("is given beside {symbol}, which stands for it"));
+            }
             Some(entry) => {
                 let value = entry.allowed_quantity(parameter.dimension(), parameter.allowed());
                 parameters[parameter] = value.unwrap_or(parameters[parameter]);
                 given.push(parameter);
             }
-            None if parameter.is_asked_for() && !on_axis => {
+            None if parameter.is_asked_for() && !on_axis && !stands_in(parameter) => {
                 let expected = format!("a value for the {} here or an axis", parameter.meaning());
                 top.missing(&format!("parameters.{}", parameter.symbol()), &expected);
             }

@@ -5,7 +5,8 @@ use toml::de::DeTable;
 use super::Refine;
 use super::axis_file::read_case_set;
 use super::branch_file::{Surroundings, read_branches};
-use super::definition::Study;
+use super::conflicts::refuse;
+use super::definition::{Study, usual_outputs, with_parts};
 use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
 use super::include;
@@ -13,7 +14,7 @@ use super::named_model::{check_model, model_in};
 use super::parameter_table::read_parameters;
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
-use crate::description::Output;
+use crate::description::{Output, Parameters};
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
 use crate::quantity::Dimension;
@@ -45,6 +46,7 @@ impl Study {
         }
         let study = Study { title, text: text.to_owned(), ..read_study(&top) };
         check_size(&reader, &study);
+        refuse(&top, &study);
         top.finish();
         reader.finish(name)?;
         Ok(study)
@@ -62,7 +64,7 @@ fn read_study(top: &Table<'_, '_>) -> Study {
     let start = read_start(top, &mut case_set);
     let protocol = read_protocol(top);
     let basin = read_basin(top, &case_set);
-    let outputs = read_outputs(top);
+    let outputs = read_outputs(top, &with_parts(&base, &case_set.varied()));
     let refine = read_map(top, &case_set, &outputs).or(basin.refine.then_some(Refine::Attractors));
     let surroundings = Surroundings { case_set: &case_set, base: &base, start: start.clone() };
     let branches = read_branches(top, &surroundings);
@@ -200,9 +202,9 @@ fn read_history(table: Table<'_, '_>) -> HistorySpan {
     HistorySpan { cycles, per_cycle, from_start: from.unwrap_or(false) }
 }
 
-fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {
+fn read_outputs(top: &Table<'_, '_>, parameters: &Parameters) -> Vec<Output> {
     let model = top.model();
-    let Some(entry) = top.entry("outputs") else { return model.outputs().collect() };
+    let Some(entry) = top.entry("outputs") else { return usual_outputs(parameters) };
     let names: Vec<(&str, Output)> =
         model.outputs().map(|output| (output.name(), output)).collect();
     let mut outputs = Vec::new();

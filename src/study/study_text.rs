@@ -9,7 +9,7 @@ use super::{
     Axis, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit, Refine, Spacing,
     Study,
 };
-use crate::description::State;
+use crate::description::{Presence, State};
 use crate::of::default_model;
 use crate::orbit::{HistorySpan, Protocol};
 
@@ -82,10 +82,14 @@ impl Study {
     fn write_parameters(&self, document: &mut Document) {
         document.table("parameters");
         let varied = self.case_set.varied();
-        for parameter in self.base.model().parameters() {
+        // One that is told of where it is not given would be given by its text.
+        let written = self
+            .base
+            .stated()
+            .filter(|(it, _)| it.presence() == Presence::Always || self.base.is_given(*it));
+        for (parameter, value) in written {
             if !varied.contains(&Coordinate::Parameter(parameter)) {
-                let value = quantity(self.base[parameter], parameter.dimension());
-                document.put(parameter.symbol(), value);
+                document.put(parameter.symbol(), quantity(value, parameter.dimension()));
             }
         }
         self.base.choices().for_each(|(name, option)| document.put(name, text(option)));

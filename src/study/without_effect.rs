@@ -13,7 +13,7 @@ impl Study {
     /// What has no effect at the values of the study, in sentences, as far as it varies none of the parameters that are concerned.
     pub fn remarks_on_values(&self) -> Vec<String> {
         let varied = self.case_set.varied();
-        let mut remarks = (self.base.model().rules.remarks)(&self.base);
+        let mut remarks = (self.base.model().rules.remarks)(&self.with_parts());
         remarks.retain(|remark| {
             remark.about.iter().all(|it| !varied.contains(&Coordinate::Parameter(*it)))
         });
@@ -66,7 +66,7 @@ impl Study {
 
     /// Why a parameter has no effect by what the study chooses, whatever its value, as what follows "has no effect".
     fn reason(&self, parameter: Parameter) -> Option<String> {
-        (self.base.model().rules.no_effect)(&self.base, parameter)
+        (self.base.model().rules.no_effect)(&self.with_parts(), parameter)
     }
 
     /// The value below which a parameter has no effect beside others.

@@ -114,8 +114,8 @@ in_lanes! {
             not_finite(*x + *v)
         }
 
-        fn touching<'a>(&self, jet: &'a Taylor<L, 2>) -> Option<(&'a Series<L>, L)> {
-            Some((&jet[0], self.wall))
+        fn touching<'a>(&self, jet: &'a Taylor<L, 2>) -> Option<(&'a Series<L>, [L; 2])> {
+            Some((&jet[0], [self.wall; 2]))
         }
     }
 

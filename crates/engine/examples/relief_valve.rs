@@ -124,8 +124,8 @@ in_lanes! {
             *section = jet[1];
         }
 
-        fn touching<'a>(&self, jet: &'a Taylor<L, 4>) -> Option<(&'a Series<L>, L)> {
-            Some((&jet[0], L::splat(0.0)))
+        fn touching<'a>(&self, jet: &'a Taylor<L, 4>) -> Option<(&'a Series<L>, [L; 2])> {
+            Some((&jet[0], [L::splat(0.0); 2]))
         }
     }
 

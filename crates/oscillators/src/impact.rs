@@ -107,7 +107,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         output(("section_residual", "SectionResidual"), "how far the section is from repeating"),
     ],
     roles: Roles {
-        drive: Some(DriveRoles { frequency: 2, amplitude: 1 }),
+        drive: Some(DriveRoles { frequency: 2, period: None, amplitude: 1 }),
         impact_surface: Some(4),
         natural: None,
         trade_off: None,

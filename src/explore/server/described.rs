@@ -52,10 +52,9 @@ fn outputs_json(explored: &Explored) -> Vec<Value> {
 fn constants_json(explored: &Explored) -> Vec<Value> {
     let study = &explored.study;
     let varied = study.case_set.varied();
-    let held = explored
-        .model()
-        .parameters()
-        .filter(|it| !varied.contains(&Coordinate::Parameter(*it)) && study.has_effect(*it));
+    let stated = study.base.stated().map(|(it, _)| it);
+    let held =
+        stated.filter(|it| !varied.contains(&Coordinate::Parameter(*it)) && study.has_effect(*it));
     let constants = held.map(|it| {
         let mut constant = shown_json(explored, it.symbol());
         constant["value"] = json!(study.base[it]);

@@ -27,16 +27,19 @@ pub enum Reason {
     NoReturn,
     /// The case takes more steps than it may.
     OutOfSteps,
+    /// Nothing holds a mean force, and the motion accelerates for ever.
+    Runaway,
 }
 
 impl Reason {
     /// Every reason with its name in files.
-    pub const NAMES: [(Reason, &str); 5] = [
+    pub const NAMES: [(Reason, &str); 6] = [
         (Reason::NoProgress, "no-progress"),
         (Reason::NotFinite, "not-finite"),
         (Reason::TooManySteps, "too-many-steps"),
         (Reason::NoReturn, "no-return"),
         (Reason::OutOfSteps, "out-of-steps"),
+        (Reason::Runaway, "runaway"),
     ];
 }
 
@@ -46,6 +49,7 @@ impl fmt::Display for Reason {
             Reason::NoProgress => Breakdown::NoProgress.fmt(f),
             Reason::NotFinite => Breakdown::NotFinite.fmt(f),
             Reason::NoReturn => Breakdown::NoReturn.fmt(f),
+            Reason::Runaway => Breakdown::RunsAway.fmt(f),
             Reason::TooManySteps => write!(f, "a drive cycle takes over {STEPS_PER_CYCLE} steps"),
             Reason::OutOfSteps => f.write_str("the case takes more steps than max_steps allows"),
         }
@@ -58,6 +62,7 @@ impl From<Breakdown> for Reason {
             Breakdown::NoProgress => Reason::NoProgress,
             Breakdown::NotFinite => Reason::NotFinite,
             Breakdown::NoReturn => Reason::NoReturn,
+            Breakdown::RunsAway => Reason::Runaway,
             Breakdown::Stopped => Reason::OutOfSteps,
         }
     }

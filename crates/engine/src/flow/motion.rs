@@ -53,6 +53,8 @@ pub enum Breakdown {
     NotFinite,
     /// An autonomous system does not come back to its section in time.
     NoReturn,
+    /// The motion leaves every bound ([`Switched::runs_away`]).
+    RunsAway,
     /// The computation is to end.
     Stopped,
 }
@@ -63,6 +65,7 @@ impl fmt::Display for Breakdown {
             Breakdown::NoProgress => "events follow each other without time passing",
             Breakdown::NotFinite => "the state or a guard is no longer a finite number",
             Breakdown::NoReturn => "the motion does not come back to its section",
+            Breakdown::RunsAway => "nothing holds the mean force: the motion accelerates for ever",
             Breakdown::Stopped => "the computation was ended early",
         })
     }
@@ -183,6 +186,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             return L::Mask::splat(true);
         }
         let broken = L::splat(PATIENCE).lt(self.idle) | system.lost(&self.state);
+        let broken = broken | system.runs_away(&self.state);
         if S::AUTONOMOUS { broken | system.period().le(self.time) } else { broken }
     }
 
@@ -194,6 +198,9 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         }
         if L::splat(PATIENCE).lt(self.idle).lane(index) {
             return Some(Breakdown::NoProgress);
+        }
+        if system.runs_away(&self.state).lane(index) {
+            return Some(Breakdown::RunsAway);
         }
         let is_late = S::AUTONOMOUS && system.period().le(self.time).lane(index);
         let stopped = stop::is_asked().then_some(Breakdown::Stopped);

@@ -42,6 +42,11 @@ pub trait Event: Copy + Ord + Debug + Send + Sync + 'static {
     fn is_impact(self) -> bool {
         false
     }
+
+    /// Whether it happens at a time of the drive, whatever the motion is: motions whose events differ in such alone have the same.
+    fn is_timed(self) -> bool {
+        false
+    }
 }
 
 /// The events of a system that has none.
@@ -191,14 +196,22 @@ pub trait Switched<L: Lane> {
     /// Where the state is not a finite number.
     fn lost(&self, state: &Self::State) -> L::Mask;
 
+    /// Where the motion leaves every bound, as where nothing holds a mean force; told of as
+    /// [`Breakdown::RunsAway`](super::Breakdown::RunsAway).
+    #[inline(always)]
+    fn runs_away(&self, _state: &Self::State) -> L::Mask {
+        L::Mask::splat(false)
+    }
+
     /// Writes the function whose fall through zero is the section of an autonomous system; where an event takes it
     /// across zero, there is none.
     #[inline(always)]
     fn section(&self, _jet: &Self::Jet, _section: &mut Series<L>) {}
 
-    /// The coordinate whose local extrema may graze a surface, and its value there; none where nothing does.
+    /// The coordinate whose local extrema may graze a surface, and its values on the two surfaces, which may be one; none where
+    /// nothing does.
     #[inline(always)]
-    fn touching<'a>(&self, _jet: &'a Self::Jet) -> Option<(&'a Series<L>, L)> {
+    fn touching<'a>(&self, _jet: &'a Self::Jet) -> Option<(&'a Series<L>, [L; 2])> {
         None
     }
 }

@@ -171,7 +171,7 @@ impl<L: Lane, E: Event> Passing<L, E> {
 
     /// Takes note of a step of this length [s] with the event at its end.
     pub fn see(&mut self, (length, event): (f64, Option<E>)) {
-        self.events.extend(event);
+        self.events.extend(event.filter(|it| !it.is_timed()));
         self.elapsed += length;
     }
 
@@ -182,12 +182,14 @@ impl<L: Lane, E: Event> Passing<L, E> {
         changes: (&SignChanges<P, L>, usize),
         step: (f64, Option<E>),
         at: impl Fn(f64) -> L,
-        surface: impl Fn() -> L,
+        surfaces: impl Fn() -> [L; 2],
     ) {
         let Passing { turns, extrema, elapsed, period, .. } = self;
         turns.during(changes, step, at, |time, value| {
             let time = (*elapsed + time) / *period;
-            extrema.push(Extremum { margin: surface() - value, time });
+            let [first, second] = surfaces().map(|surface| surface - value);
+            let is_second = second.abs().plain().lane(0) < first.abs().plain().lane(0);
+            extrema.push(Extremum { margin: if is_second { second } else { first }, time });
         });
     }
 
@@ -199,10 +201,10 @@ impl<L: Lane, E: Event> Passing<L, E> {
         changes: &mut SignChanges<L::Plain, L>,
     ) {
         let seen = (step.length.lane(0), E::from_code(step.event.lane(0)));
-        if let Some((coordinate, surface)) = system.touching(&step.jet) {
+        if let Some((coordinate, surfaces)) = system.touching(&step.jet) {
             let all = <L::Plain as Lane>::Mask::splat(true);
             changes.of(coordinate, step.length.plain(), all, |value, _| *value);
-            self.turn((changes, 0), seen, |time| value_at(coordinate, time), || surface);
+            self.turn((changes, 0), seen, |time| value_at(coordinate, time), || surfaces);
         }
         self.see(seen);
     }

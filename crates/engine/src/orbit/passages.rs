@@ -180,10 +180,10 @@ impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>,
             };
             let event = M::Event::from_code(step.event.lane(lane));
             let seen = (step.length.lane(lane), event);
-            if let Some((coordinate, surface)) = touching {
+            if let Some((coordinate, surfaces)) = touching {
                 let at = |time: f64| value_in_lane(coordinate, lane, time);
                 let changes = (&self.changes, lane);
-                own.passing.turn(changes, seen, at, || one(&surface, lane));
+                own.passing.turn(changes, seen, at, || surfaces.map(|it| one(&it, lane)));
             }
             own.passing.see(seen);
         }

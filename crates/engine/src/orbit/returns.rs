@@ -174,7 +174,7 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Following<'_, M, D
         for (lane, own) in lanes.kept.iter_mut().enumerate() {
             let event = M::Event::from_code(lanes.step.event.lane(lane));
             if let Some(own) = own {
-                own.events.extend(event);
+                own.events.extend(event.filter(|it| !it.is_timed()));
             }
         }
     }

@@ -53,7 +53,7 @@ where
 /// The capsule of a case over numbers with derivatives along the section's coordinates.
 pub fn dual_capsule(case: &Case) -> Capsule<Dual<f64, 3>> {
     let p = &case.parameters;
-    Capsule::new(|q| Dual::constant(p[q]), p.resistance(), case.section_phase)
+    Capsule::new(|q| Dual::constant(p[q]), p.shape(), case.section_phase)
 }
 
 /// What the coordinates of the section are multiplied with to be compared.
@@ -216,7 +216,7 @@ fn the_equation_as_printed_is_linearised_too() {
         let system = PrintedCapsule::single(p, case.section_phase);
         let carried = PrintedCapsule::<Dual<f64, 3>>::new(
             |q| Dual::constant(p[q]),
-            p.resistance(),
+            p.shape(),
             case.section_phase,
         );
         let weights = weights(&case.parameters);

@@ -26,7 +26,7 @@ pub const DIRECTIONS: [Parameter; 12] = [
 fn image<L: Lane<Mask = bool>>(of: &Periodic, direction: Parameter, value: L) -> [L; 3] {
     let p = &of.case.parameters;
     let with = |q: Parameter| if q == direction { value } else { L::splat(p[q]) };
-    let system = Capsule::new(with, p.resistance(), of.case.section_phase);
+    let system = Capsule::new(with, p.shape(), of.case.section_phase);
     let from = of.point.map(L::splat);
     followed(&system, from, of.period, |_| ())
 }
@@ -71,8 +71,7 @@ fn parameters_are_directions() {
 fn second_derivatives(of: &Periodic) -> [[[f64; 3]; 3]; 3] {
     type Twice = Dual<Dual<f64, 3>, 3>;
     let p = &of.case.parameters;
-    let system =
-        Capsule::<Twice>::new(|q| Twice::splat(p[q]), p.resistance(), of.case.section_phase);
+    let system = Capsule::<Twice>::new(|q| Twice::splat(p[q]), p.shape(), of.case.section_phase);
     let from: [Twice; 3] =
         std::array::from_fn(|i| Dual::variable(Dual::variable(of.point[i], i), i));
     let end = followed(&system, from, of.period, |_| ());

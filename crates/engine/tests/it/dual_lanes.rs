@@ -67,11 +67,11 @@ impl Work for Together<'_> {
 #[inline(always)]
 fn side_by_side<L: Lane>(cases: &[Case]) -> Vec<Vec<Bits>> {
     let of = |lane: usize| cases.get(lane).unwrap_or(&cases[0]);
-    let law = of(0).parameters.resistance();
+    let shape = of(0).parameters.shape();
     let lanes = |number: &dyn Fn(&Case) -> f64| L::from_fn(|lane| number(of(lane)));
     let system = Capsule::<Dual<L, 3>>::new(
         |p| Dual::constant(lanes(&|case| case.parameters[p])),
-        law,
+        shape,
         of(0).section_phase,
     );
     let from = std::array::from_fn(|i| Dual::variable(lanes(&|case| start(case)[i]), i));

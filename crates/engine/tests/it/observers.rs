@@ -94,7 +94,7 @@ fn side_by_side<L: Lane>(cases: &[Case]) -> Vec<[u64; 17]> {
         motion.put(lane, &Motion::new(&one(lane), 0.0, of(lane).start.capsule()));
     }
     let parameter = |parameter: Parameter| L::from_fn(|lane| of(lane).parameters[parameter]);
-    let mut account = Account::<L>::new(parameter, 64);
+    let mut account = Account::<L>::new(parameter, of(0).parameters.shape(), 64);
     let mut step = Step::default();
     let mut cycles = vec![0; cases.len()];
     let mut found = vec![[0; 17]; cases.len()];
@@ -144,9 +144,9 @@ fn the_derivatives_of_the_sums_are_those_of_differences() {
                 Parameter::Pd => p_d,
                 _ => Dual::constant(case.parameters[parameter]),
             };
-            let law = case.parameters.resistance();
-            let system = Capsule::new(constant, law, case.section_phase);
-            let mut account = Account::new(constant, 0);
+            let shape = case.parameters.shape();
+            let system = Capsule::new(constant, shape, case.section_phase);
+            let mut account = Account::new(constant, shape, 0);
             let from = point.array().map(Dual::constant);
             observed(&system, from, &cycles, &mut account).expect("it goes on");
             let energies = account.energies;

@@ -126,8 +126,8 @@ impl<L: Lane> Switched<L> for Impact<L> {
     }
 
     #[inline(always)]
-    fn touching<'a>(&self, jet: &'a Taylor<L, 2>) -> Option<(&'a Series<L>, L)> {
-        Some((&jet[0], self.stop))
+    fn touching<'a>(&self, jet: &'a Taylor<L, 2>) -> Option<(&'a Series<L>, [L; 2])> {
+        Some((&jet[0], [self.stop; 2]))
     }
 }
 

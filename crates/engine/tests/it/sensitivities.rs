@@ -36,7 +36,7 @@ fn studies(period: u64) -> Cycles {
 /// The orbit near a section point, by Newton's method on the return map alone.
 fn closed(parameters: &Parameters, phase: f64, guess: [f64; 3], period: u64) -> [f64; 3] {
     let of = |it: Parameter| -> Dual<f64, 3> { Dual::constant(parameters[it]) };
-    let system = Capsule::new(of, parameters.resistance(), phase);
+    let system = Capsule::new(of, parameters.shape(), phase);
     let cycles = Cycles { count: period, tolerance: TOLERANCE };
     let mut point = guess;
     for _ in 0..5 {
@@ -55,7 +55,7 @@ fn outputs(parameters: &Parameters, phase: f64, point: [f64; 3], period: u64) ->
     let cycles = Cycles { count: period, tolerance: TOLERANCE };
     let mut account = Account::single(parameters, 0);
     observed(&system, point, &cycles, &mut account).expect("it goes on");
-    per_cycle(&account, |it| parameters[it], period as f64)
+    per_cycle(&account, |it| parameters[it], parameters.shape(), period as f64)
 }
 
 /// Compares derivatives of outputs in every parameter with differences: how many agree, and of how many these do not tell.

@@ -3,7 +3,7 @@
 use capsulemap_engine::flow::{Field, Stroboscopic, Switched, Zeros};
 use capsulemap_engine::lane::{Lane, Series, SideBySide};
 use capsulemap_models::capsule::{
-    Capsule, EventKind, Jet, Locomotion, Parameter, Parameters, Reading, Resistance, State,
+    Capsule, DriveSeries, EventKind, Jet, Locomotion, Parameter, Parameters, Reading, Shape, State,
     filippov,
 };
 
@@ -142,14 +142,18 @@ impl Reading for Blind {
         Unbounded::single(parameters, phase)
     }
 
-    fn capsule<L: Lane>(of: impl Fn(Parameter) -> L, law: Resistance, phase: f64) -> Unbounded<L> {
-        Unbounded(Capsule::new(of, law, phase))
+    fn capsule<L: Lane>(of: impl Fn(Parameter) -> L, shape: Shape, phase: f64) -> Unbounded<L> {
+        Unbounded(Capsule::new(of, shape, phase))
     }
 }
 
 impl<L: Lane> Locomotion<L> for Unbounded<L> {
     fn jet<'a>(&self, jet: &'a Jet<L>) -> &'a Jet<L> {
         jet
+    }
+
+    fn drive<'a>(&self, jet: &'a Jet<L>) -> DriveSeries<'a, L> {
+        self.0.drive(jet)
     }
 
     fn friction(&self, mode: &Self::Mode, jet: &Jet<L>) -> Series<L> {

@@ -1,123 +1,30 @@
 //! What a stretch of motion costs and yields: energies, counts, shares and margins.
 
-use serde::Serialize;
-
 use capsulemap_engine::flow::guard::Crossings;
 use capsulemap_engine::flow::{Event, Observer, Step};
 use capsulemap_engine::lane::quadrature::{Values, integral_of_product, values};
-use capsulemap_engine::lane::{Lane, Mask, Series, SideBySide, series, side_by_side};
+use capsulemap_engine::lane::{Lane, Mask, series, side_by_side};
 
-use super::locomotion::Locomotion;
+use super::beside::Beside;
+use super::energies::Energies;
+use super::impacts::{Impact, Impacts};
+use super::locomotion::{DriveSeries, Locomotion, Parts};
 use super::parameter::Parameter;
+use super::parameters::CapsuleParameters as _;
+use super::shape::Shape;
 use super::state::{EventKind, State};
 use crate::description::Parameters;
-
-/// A point of the impact section: where contact closes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Impact<L> {
-    /// Phase of the drive since the section, 0 to 2 pi [rad].
-    pub phase: L,
-    /// Velocity of the mass [m/s].
-    pub y1: L,
-    /// Velocity of the capsule [m/s].
-    pub y2: L,
-}
-
-side_by_side!(Impact { phase, y1, y2 });
-
-/// Impacts in the order in which they were met, each with the lanes that it was in, as bits.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Impacts<L>(pub Vec<(u64, Impact<L>)>);
-
-impl<L: Lane> SideBySide for Impacts<L> {
-    type One = Impacts<f64>;
-
-    #[inline(always)]
-    fn splat(one: &Impacts<f64>) -> Self {
-        let all = L::Mask::splat(true).bits();
-        Impacts(one.0.iter().map(|(_, it)| (all, Impact::splat(it))).collect())
-    }
-
-    #[inline(always)]
-    fn lane(&self, index: usize) -> Impacts<f64> {
-        let here = self.0.iter().filter(|(lanes, _)| lanes >> index & 1 != 0);
-        Impacts(here.map(|(_, it)| (1, it.lane(index))).collect())
-    }
-
-    #[inline(always)]
-    fn put(&mut self, index: usize, one: &Impacts<f64>) {
-        self.0.retain_mut(|(lanes, _)| {
-            *lanes &= !(1 << index);
-            *lanes != 0
-        });
-        self.0.extend(one.0.iter().map(|(_, it)| (1 << index, Impact::splat(it))));
-    }
-
-    #[inline(always)]
-    fn take_lane(&mut self, index: usize, other: &Self) {
-        self.put(index, &other.lane(index));
-    }
-}
-
-impl Impacts<f64> {
-    /// A number of each impact, in their order.
-    pub fn column(&self, of: impl Fn(&Impact<f64>) -> f64) -> Vec<f64> {
-        self.0.iter().map(|(_, impact)| of(impact)).collect()
-    }
-}
-
-/// Energies, summed since a start [J].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Energies<L> {
-    /// Work of the drive [J].
-    pub work_net: L,
-    /// Its positive part [J].
-    pub work_positive: L,
-    /// The integral of its magnitude [J].
-    pub work_absolute: L,
-    /// Work of a drive that acts between mass and capsule [J].
-    pub work_actuator: L,
-    /// Energy lost to the resistance of the ground [J].
-    pub friction_loss: L,
-    /// Energy lost in the damper [J].
-    pub damper_loss: L,
-}
-
-side_by_side!(Energies {
-    work_net,
-    work_positive,
-    work_absolute,
-    work_actuator,
-    friction_loss,
-    damper_loss
-});
-
-impl<L: Copy> Energies<L> {
-    /// All of them, in their order.
-    pub fn all(&self) -> [L; 6] {
-        let Energies {
-            work_net,
-            work_positive,
-            work_absolute,
-            work_actuator,
-            friction_loss,
-            damper_loss,
-        } = *self;
-        [work_net, work_positive, work_absolute, work_actuator, friction_loss, damper_loss]
-    }
-}
 
 /// The constants of the capsules that are observed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Constants<L> {
-    p_d: L,
     c: L,
     k2: L,
     delta: L,
     omega: L,
 }
 
-side_by_side!(Constants { p_d, c, k2, delta, omega });
+side_by_side!(Constants { c, k2, delta, omega });
 
 /// Sums over the steps of a motion, in each lane; in numbers with derivatives, with the derivatives of the
 /// sums.
@@ -133,6 +40,8 @@ pub struct Account<L: Lane> {
     pub time: L,
     /// Work of the drive and losses.
     pub energies: Energies<L>,
+    /// What members of the family have beside.
+    pub beside: Beside<L>,
     /// How far the capsule has advanced [m], summed step by step with what each sum rounds away: wherever x2
     /// began, it has the same bits.
     pub advance: L,
@@ -164,37 +73,30 @@ pub struct Account<L: Lane> {
 side_by_side!(Account {
     time, advance, rounded_away, friction_impulse, stick_time, peak_contact_force, grazing_margin, touching_margin,
     impacts, forward_slips, backward_slips, reversals, rate_of_r
-} with { of, energies, impact_points } alike { points });
+} with { of, energies, beside, impact_points } alike { points });
 
 impl Account<f64> {
     /// Nothing seen yet; of the impacts so many `points` are kept.
     pub fn single(parameters: &Parameters, points: usize) -> Self {
-        Account::new(|parameter| parameters[parameter], points)
+        Account::new(|parameter| parameters[parameter], parameters.shape(), points)
     }
 }
 
 impl<L: Lane> Account<L> {
-    /// Nothing seen yet; of the impacts so many `points` are kept.
-    pub fn new(of: impl Fn(Parameter) -> L, points: usize) -> Self {
+    /// Nothing seen yet of capsules of one shape; of the impacts so many `points` are kept.
+    pub fn new(of: impl Fn(Parameter) -> L, shape: Shape, points: usize) -> Self {
         let (zero, far) = (L::splat(0.0), L::splat(f64::INFINITY));
         Account {
             of: Constants {
-                p_d: of(Parameter::Pd),
                 c: of(Parameter::C),
                 k2: of(Parameter::K2),
                 delta: of(Parameter::Delta),
-                omega: of(Parameter::Omega),
+                omega: shape.frequency(&of),
             },
             points,
             time: zero,
-            energies: Energies {
-                work_net: zero,
-                work_positive: zero,
-                work_absolute: zero,
-                work_actuator: zero,
-                friction_loss: zero,
-                damper_loss: zero,
-            },
+            energies: Energies::none(),
+            beside: Beside::none(),
             advance: zero,
             rounded_away: zero,
             friction_impulse: zero,
@@ -226,13 +128,14 @@ impl<L: Lane> Account<L> {
     fn add_energies<S: Locomotion<L>>(&mut self, system: &S, step: &Step<L, S>) {
         let (zero, h) = (L::splat(0.0), step.length);
         let jet = system.jet(&step.jet);
-        let (cos, y1) = (values(&jet.cos, h), values(&jet.y1, h));
-        let work = self.of.p_d * integral_of_product(&cos, &y1, h);
+        let drive = system.drive(&step.jet);
+        let (force, rate) = (values(drive.force, h), values(drive.rate, h));
+        let work = drive.unit * integral_of_product(&force, &rate, h);
         self.energies.work_net = self.energies.work_net + work;
-        self.add_signed_work(&jet.cos, &jet.y1, work, h);
+        self.add_signed_work(&drive, work, h);
 
         let y2 = values(&jet.y2, h);
-        let mut relative: Values<L> = y1;
+        let mut relative: Values<L> = if drive.reacts { values(&jet.y1, h) } else { rate };
         for (relative, y2) in relative.iter_mut().zip(&y2) {
             *relative = *relative - *y2;
         }
@@ -247,23 +150,25 @@ impl<L: Lane> Account<L> {
         if slides.any() {
             let slip = values(&system.slip_rate(&step.mode, &step.jet), h);
             let lost = integral_of_product(&values(&friction, h), &slip, h);
-            let carried = self.of.p_d * integral_of_product(&cos, &slip, h);
-            actuated = L::select(slides, work - carried, work);
+            if !drive.reacts {
+                let carried = drive.unit * integral_of_product(&force, &slip, h);
+                actuated = L::select(slides, work - carried, work);
+            }
             let friction_loss = self.energies.friction_loss;
             self.energies.friction_loss = L::select(slides, friction_loss + lost, friction_loss);
         }
         self.energies.work_actuator = self.energies.work_actuator + actuated;
     }
 
-    /// Splits the work where the power changes sign: where the drive or the velocity of the mass does.
+    /// Splits the work where the power changes sign: where the drive does, or the velocity at which it works.
     #[inline(always)]
-    fn add_signed_work(&mut self, cos: &Series<L>, y1: &Series<L>, work: L, h: L) {
+    fn add_signed_work(&mut self, drive: &DriveSeries<'_, L>, work: L, h: L) {
         let zero = L::splat(0.0);
         let all = L::Mask::splat(true);
         let end = h.plain();
         let mut turns = [
-            Crossings::new(&series::plain(cos), end, all),
-            Crossings::new(&series::plain(y1), end, all),
+            Crossings::new(&series::plain(drive.force), end, all),
+            Crossings::new(&series::plain(drive.rate), end, all),
         ];
         let mut next = [end; 2];
         for (turns, next) in turns.iter_mut().zip(&mut next) {
@@ -278,8 +183,9 @@ impl<L: Lane> Account<L> {
             let inner = open & !last;
             if inner.any() {
                 let t = L::from_plain(until);
-                let product = integral_of_product(&values(cos, t), &values(y1, t), t);
-                done = L::select(inner, self.of.p_d * product, done);
+                let both = [drive.force, drive.rate].map(|it| values(it, t));
+                let product = integral_of_product(&both[0], &both[1], t);
+                done = L::select(inner, drive.unit * product, done);
             }
             let part = done - before;
             let Energies { work_positive, work_absolute, .. } = &mut self.energies;
@@ -298,7 +204,12 @@ impl<L: Lane> Account<L> {
 
     /// Looks at the local extrema of r, which hold the margins, and the maxima the peak force.
     #[inline(always)]
-    fn add_extremes<S: Locomotion<L>>(&mut self, system: &S, step: &Step<L, S>) {
+    fn add_extremes<S: Locomotion<L>>(
+        &mut self,
+        system: &S,
+        step: &Step<L, S>,
+        parts: Option<&Parts<L>>,
+    ) {
         let zero = L::splat(0.0);
         let all = L::Mask::splat(true);
         let r = &system.jet(&step.jet).r;
@@ -307,7 +218,7 @@ impl<L: Lane> Account<L> {
         // The printed equation lets r turn with a corner, between two steps.
         let turns = passes & (self.rate_of_r * rate[0]).lt(zero);
         if turns.any() {
-            self.meet_extremum(turns, r[0], rate[0].lt(zero));
+            self.meet_extremum(turns, r[0], rate[0].lt(zero), parts);
         }
         let mut extrema = Crossings::new(&series::plain(&rate), step.length.plain(), passes);
         loop {
@@ -317,20 +228,33 @@ impl<L: Lane> Account<L> {
             }
             // At an extremum the derivatives at fixed time are those of the extremum.
             let there = series::value(r, L::from_plain(extremum.time));
-            self.meet_extremum(extremum.found, there, extremum.falls);
+            self.meet_extremum(extremum.found, there, extremum.falls, parts);
         }
         let rate_at_end = series::value(&rate, step.length);
         self.rate_of_r = L::select(passes, rate_at_end, self.rate_of_r);
-        self.meet_contact(passes & system.closed(&step.mode), r[0]);
+        if parts.is_none() {
+            self.meet_contact(passes & system.closed(&step.mode), r[0]);
+        }
     }
 
     #[inline(always)]
-    fn meet_extremum(&mut self, here: L::Mask, r: L, is_maximum: L::Mask) {
-        let margin = (self.of.delta - r).abs();
+    fn meet_extremum(
+        &mut self,
+        here: L::Mask,
+        r: L,
+        is_maximum: L::Mask,
+        parts: Option<&Parts<L>>,
+    ) {
+        let mut margin = (self.of.delta - r).abs();
         let [touching, grazing] = [self.touching_margin, self.grazing_margin];
-        self.touching_margin = L::select(here, touching.min(margin), touching);
         self.grazing_margin = L::select(here & is_maximum, grazing.min(margin), grazing);
-        self.meet_contact(here & is_maximum, r);
+        match parts {
+            Some(parts) => {
+                margin = margin.min(self.beside.meet_extremum(here & !is_maximum, r, parts))
+            }
+            None => self.meet_contact(here & is_maximum, r),
+        }
+        self.touching_margin = L::select(here, touching.min(margin), touching);
     }
 
     #[inline(always)]
@@ -352,6 +276,10 @@ impl<L: Lane> Account<L> {
             let State { y1, y2, .. } = system.at(&step.jet, step.length);
             let phase = self.of.omega * (step.start + step.length);
             self.impact_points.0.push((kept.bits(), Impact { phase, y1, y2 }));
+        }
+        if S::HAS_PARTS {
+            let rear = is_event(step.event, EventKind::RearContactClosed);
+            self.beside.rear_impacts = one_more(self.beside.rear_impacts, rear);
         }
         let reverses = is_event(step.event, EventKind::Reversal);
         let was_forward = zero.lt(system.direction(&step.mode));
@@ -384,7 +312,12 @@ impl<L: Lane, S: Locomotion<L>> Observer<L, S> for Account<L> {
         if L::splat(0.0).lt(step.length).any() {
             self.add_advance(system, step);
             self.add_energies(system, step);
-            self.add_extremes(system, step);
+            let parts = system.parts(step);
+            self.add_extremes(system, step, parts.as_ref());
+            if let Some(parts) = parts {
+                let peak = self.beside.see(system.jet(&step.jet), &parts, step.length);
+                self.peak_contact_force = self.peak_contact_force.max(peak);
+            }
         }
         self.count(system, step);
     }

@@ -3,8 +3,8 @@
 use capsulemap_engine::branch::NotFollowed;
 
 use super::parameters::CapsuleParameters as _;
-use super::resistance::Switching;
-use super::system::{AsPrinted, CapsuleSystem, Filippov};
+use super::shape::Form;
+use super::system::{AsPrinted, CapsuleSystem, Filippov, General};
 use crate::face;
 pub use crate::motion::branch::{Branch, Found, Point, Request, Special};
 
@@ -13,8 +13,9 @@ pub use crate::motion::branch::{Branch, Found, Point, Request, Special};
 /// # Errors
 /// Where no periodic orbit is found near the point that is given, or none that a branch goes through.
 pub fn follow(request: &Request) -> Result<Found, NotFollowed> {
-    match request.setting.parameters.switching() {
-        Switching::Filippov => face::follow::<CapsuleSystem<Filippov>, 3>(request),
-        Switching::AsPrinted => face::follow::<CapsuleSystem<AsPrinted>, 3>(request),
+    match request.setting.parameters.form() {
+        Form::Filippov => face::follow::<CapsuleSystem<Filippov>, 3>(request),
+        Form::AsPrinted => face::follow::<CapsuleSystem<AsPrinted>, 3>(request),
+        Form::General => face::follow::<CapsuleSystem<General>, 3>(request),
     }
 }

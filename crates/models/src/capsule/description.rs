@@ -1,6 +1,5 @@
 //! What the capsule says of itself: the quantities of its starts, sections, impacts, histories, parameters and outputs.
 
-use super::friction_rules::RULES;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
 use super::quantities::{
@@ -8,14 +7,16 @@ use super::quantities::{
     NEUTRAL_Y2, SECTION_R, SECTION_Y1, SECTION_Y2, START_R, START_X2, START_Y1, START_Y2,
 };
 use super::resistance::{Resistance, Switching};
+use super::rules::RULES;
+use super::shape::{DriveKind, Reaction};
+use super::shown::{output_shown, parameter_shown};
 use super::signals;
 use super::state::State;
 use crate::description::{
     self, Choice, CoordinateDescription, Description, DriveRoles, OutputDescription,
     ParameterDescription, Roles, TradeOffRoles,
 };
-use crate::quantity::shown::{shown, words};
-use crate::quantity::{Dimension, Quantity, Shown};
+use crate::quantity::Quantity;
 
 /// The coordinates of a point of the stroboscopic section.
 pub const SECTION: &[Quantity] = &[SECTION_R, SECTION_Y1, SECTION_Y2];
@@ -33,6 +34,7 @@ pub static CAPSULE: Description = Description {
             options: &Resistance::OPTIONS,
             tag: "resistance",
             option_tags: &["CoulombStribeck", "Coulomb", "Medium"],
+            is_optional: false,
         },
         Choice {
             name: "friction_switching",
@@ -42,6 +44,27 @@ pub static CAPSULE: Description = Description {
             options: &Switching::OPTIONS,
             tag: "switching",
             option_tags: &["Filippov", "AsPrinted"],
+            is_optional: false,
+        },
+        Choice {
+            name: "drive",
+            noun: "drive",
+            title: "Drive",
+            meaning: "how the force on the mass depends on the phase of the drive",
+            options: &DriveKind::OPTIONS,
+            tag: "drive",
+            option_tags: &["Harmonic", "Square", "Trapezoid", "TwoHarmonics"],
+            is_optional: true,
+        },
+        Choice {
+            name: "drive_reaction",
+            noun: "reaction",
+            title: "Reaction of the drive",
+            meaning: "what takes up the reaction of the drive",
+            options: &Reaction::OPTIONS,
+            tag: "reaction",
+            option_tags: &["None", "Capsule"],
+            is_optional: true,
         },
     ],
     coordinates: &[
@@ -62,6 +85,7 @@ pub static CAPSULE: Description = Description {
     roles: Roles {
         drive: Some(DriveRoles {
             frequency: Parameter::Omega as usize,
+            period: Some(Parameter::Period as usize),
             amplitude: Parameter::Pd as usize,
         }),
         impact_surface: Some(Parameter::Delta as usize),
@@ -137,7 +161,8 @@ impl Parameter {
         let (allowed, default) = (self.allowed(), self.default_value());
         let is_asked_for =
             matches!(self, Parameter::Omega | Parameter::Pd | Parameter::K2 | Parameter::Delta);
-        ParameterDescription { quantity, tag: self.tag(), allowed, default, is_asked_for }
+        let (tag, presence) = (self.tag(), self.presence());
+        ParameterDescription { quantity, tag, allowed, default, is_asked_for, presence }
     }
 
     /// It as a parameter that the description of the capsule tells of.
@@ -180,6 +205,7 @@ impl Output {
             quantity: self.quantity(),
             tag: self.tag(),
             is_smooth: self.is_smooth(),
+            is_optional: self.is_optional(),
         }
     }
 
@@ -233,71 +259,5 @@ impl Default for description::State {
 impl From<Outputs> for description::Outputs {
     fn from(outputs: Outputs) -> Self {
         description::Outputs::new(&CAPSULE, outputs.values())
-    }
-}
-
-/// How figures show a parameter.
-const fn parameter_shown(parameter: Parameter) -> Option<Shown> {
-    let (label, symbol) = match parameter {
-        Parameter::M1 => ("Internal mass", "*m*_{1}"),
-        Parameter::M2 => ("Capsule mass", "*m*_{2}"),
-        Parameter::K1 => ("Stiffness", "*k*_{1}"),
-        Parameter::C => ("Damping", "*c*"),
-        Parameter::K2 => ("Stiffness", "*k*_{2}"),
-        Parameter::Delta => ("Gap", "*δ*"),
-        Parameter::Pd => ("Force amplitude", "*p*_{d}"),
-        Parameter::Omega => ("Frequency", "*ω*"),
-        Parameter::MuS => ("Static friction", "*μ*_{s}"),
-        Parameter::MuD => ("Dynamic friction", "*μ*_{d}"),
-        Parameter::Vs => ("Stribeck velocity", "*v*_{s}"),
-        Parameter::G => ("Gravity", "*g*"),
-        Parameter::C1 | Parameter::C2 => return None,
-    };
-    let (unit, factor) = match parameter.dimension() {
-        Dimension::Stiffness => ("kN/m", 1e-3),
-        Dimension::Length => ("mm", 1e3),
-        Dimension::Acceleration => ("m/s^{2}", 1.0),
-        Dimension::Number => ("", 1.0),
-        dimension => (dimension.unit(), 1.0),
-    };
-    shown(label, symbol, unit, factor)
-}
-
-/// How figures show an output.
-const fn output_shown(output: Output) -> Option<Shown> {
-    match output {
-        Output::ProgressionSpeed => shown("Progression speed", "", "mm/s", 1e3),
-        Output::ProgressionPerCycle => shown("Progression per cycle", "", "mm", 1e3),
-        Output::WorkNet => shown("Net work per cycle", "", "mJ", 1e3),
-        Output::WorkPositive => shown("Positive work per cycle", "", "mJ", 1e3),
-        Output::WorkAbsolute => shown("Absolute work per cycle", "", "mJ", 1e3),
-        Output::WorkActuator => shown("Actuator work per cycle", "", "mJ", 1e3),
-        Output::FrictionLoss => shown("Friction loss per cycle", "", "mJ", 1e3),
-        Output::DamperLoss => shown("Damper loss per cycle", "", "mJ", 1e3),
-        Output::EnergyResidual => words("Energy residual", ""),
-        Output::MomentumResidual => words("Momentum residual", ""),
-        Output::CostOfTransport => words("Cost of transport", ""),
-        Output::Power => shown("Power", "", "mW", 1e3),
-        Output::EnergyPerMetre => words("Energy per metre", "J/m"),
-        Output::ImpactsPerCycle => words("Impacts per cycle", ""),
-        Output::ForwardSlips => words("Forward slips per cycle", ""),
-        Output::BackwardSlips => words("Backward slips per cycle", ""),
-        Output::Reversals => words("Reversals per cycle", ""),
-        Output::StickShare => words("Share of sticking", ""),
-        Output::PeakContactForce => words("Peak contact force", "N"),
-        Output::GrazingMargin => shown("Grazing margin", "", "mm", 1e3),
-        Output::LyapunovExponent => words("Lyapunov exponent", "1/s"),
-        Output::LyapunovUncertainty => words("Uncertainty of the exponent", "1/s"),
-        Output::LargestMultiplier => words("Largest multiplier", ""),
-        Output::IntegrationDefect => words("Integration defect", ""),
-        Output::ExcludedPeriod => words("Longest period excluded", ""),
-        Output::SectionResidual => words("Section residual", ""),
-        Output::ProgressionSpeedError => shown("Error of the progression speed", "", "mm/s", 1e3),
-        Output::WorkNetError => shown("Error of the net work per cycle", "", "mJ", 1e3),
-        Output::WorkPositiveError => shown("Error of the positive work per cycle", "", "mJ", 1e3),
-        Output::WorkAbsoluteError => shown("Error of the absolute work per cycle", "", "mJ", 1e3),
-        Output::WorkActuatorError => shown("Error of the actuator work per cycle", "", "mJ", 1e3),
-        Output::FrictionLossError => shown("Error of the friction loss per cycle", "", "mJ", 1e3),
-        Output::DamperLossError => shown("Error of the damper loss per cycle", "", "mJ", 1e3),
     }
 }

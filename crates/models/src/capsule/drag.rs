@@ -19,7 +19,7 @@ pub struct Drag<L> {
     /// The law.
     pub law: Resistance,
     /// `mu_d N`; a medium has no use for it [N].
-    dynamic: L,
+    pub(super) dynamic: L,
     /// Force needed to leave rest, `f_b` [N].
     pub break_away: L,
     /// `f_s = mu_s N`, zero in a medium [N].
@@ -27,9 +27,11 @@ pub struct Drag<L> {
     /// Resistance at vanishing speed, `f_d(0+)` [N].
     pub at_onset: L,
     /// `1/v_s` [s/m].
-    inverse_stribeck: L,
-    linear: L,
-    quadratic: L,
+    pub(super) inverse_stribeck: L,
+    /// Linear drag [N s/m].
+    pub(super) linear: L,
+    /// Quadratic drag [N s^2/m^2].
+    pub(super) quadratic: L,
 }
 
 // Lanes share one law: the constants differ.
@@ -37,25 +39,57 @@ side_by_side!(Drag {
     dynamic, break_away, static_limit, at_onset, inverse_stribeck, linear, quadratic
 } alike { law });
 
+/// The coefficients of friction and drag, as those of one direction of sliding.
+pub const COEFFICIENTS: [Parameter; 4] =
+    [Parameter::MuS, Parameter::MuD, Parameter::C1, Parameter::C2];
+
 impl<L: Lane> Drag<L> {
     /// The law with the constants of these parameters.
     ///
     /// Friction at vanishing speed is 2 mu_d N by the Coulomb-Stribeck law and mu_d N by Coulomb's, and rest ends at
     /// f_b = max(f_s, f_d(0+)): a capsule that left at less would be pushed straight back.
     pub fn new(of: impl Fn(Parameter) -> L, law: Resistance) -> Self {
-        let of_rest = if law == Resistance::Medium { 0.0 } else { 1.0 };
         let load = (of(Parameter::M1) + of(Parameter::M2)) * of(Parameter::G);
-        let static_limit = L::splat(of_rest) * of(Parameter::MuS) * load;
-        let at_onset = L::splat(law.onset_factor()) * of(Parameter::MuD) * load;
+        let onset = L::splat(law.onset_factor());
+        Drag::with(COEFFICIENTS.map(&of), of(Parameter::Vs), law, (load, onset))
+    }
+
+    /// The law with these [`COEFFICIENTS`], this Stribeck velocity and normal load, whose friction at the onset of sliding is so many
+    /// times mu_d N.
+    pub fn with(
+        [mu_s, mu_d, linear, quadratic]: [L; 4],
+        v_s: L,
+        law: Resistance,
+        (load, onset): (L, L),
+    ) -> Self {
+        let of_rest = if law == Resistance::Medium { 0.0 } else { 1.0 };
+        let static_limit = L::splat(of_rest) * mu_s * load;
+        let at_onset = onset * mu_d * load;
         Drag {
             law,
-            dynamic: of(Parameter::MuD) * load,
+            dynamic: mu_d * load,
             static_limit,
             at_onset,
             break_away: static_limit.max(at_onset),
-            inverse_stribeck: L::splat(1.0) / of(Parameter::Vs),
-            linear: of(Parameter::C1),
-            quadratic: of(Parameter::C2),
+            inverse_stribeck: L::splat(1.0) / v_s,
+            linear,
+            quadratic,
+        }
+    }
+
+    /// That of either of two, in each lane; both of one law.
+    #[inline(always)]
+    pub fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
+        let of = |number: fn(&Self) -> L| L::select(mask, number(yes), number(no));
+        Drag {
+            law: yes.law,
+            dynamic: of(|it| it.dynamic),
+            static_limit: of(|it| it.static_limit),
+            at_onset: of(|it| it.at_onset),
+            break_away: of(|it| it.break_away),
+            inverse_stribeck: of(|it| it.inverse_stribeck),
+            linear: of(|it| it.linear),
+            quadratic: of(|it| it.quadratic),
         }
     }
 

@@ -3,6 +3,7 @@
 use capsulemap_engine::lane::{Lane, Series, elementary::sin_cos_of_a_turn, series, side_by_side};
 
 use super::parameter::Parameter;
+use super::shape::Shape;
 
 /// Amplitude, frequency and phase at t = 0.
 #[derive(Debug, Clone, Copy)]
@@ -19,9 +20,10 @@ side_by_side!(Drive { amplitude, omega, sin_phase, cos_phase });
 
 impl<L: Lane> Drive<L> {
     /// The drive of these parameters, started at `phase` within 0..2 pi [rad].
-    pub fn new(of: impl Fn(Parameter) -> L, phase: L) -> Self {
+    pub fn new(of: impl Fn(Parameter) -> L, shape: Shape, phase: L) -> Self {
         let (sin_phase, cos_phase) = sin_cos_of_a_turn(phase);
-        Drive { amplitude: of(Parameter::Pd), omega: of(Parameter::Omega), sin_phase, cos_phase }
+        let omega = shape.frequency(&of);
+        Drive { amplitude: of(Parameter::Pd), omega, sin_phase, cos_phase }
     }
 
     /// The period, 2 pi / omega [s].

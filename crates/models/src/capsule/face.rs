@@ -40,7 +40,8 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
     }
 
     fn driven(&self, single: &R::Single, step: &Step<f64, R::Single>, h: f64) -> Vec<f64> {
-        vec![self.parameters[Parameter::Pd] * series::value(&single.jet(&step.jet).cos, h)]
+        let drive = single.drive(&step.jet);
+        vec![drive.unit * series::value(drive.force, h)]
     }
 
     /// The series ends within rounding of zero, on either side: just before it rests or turns round, the capsule still slides, and
@@ -95,7 +96,7 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
     }
 
     fn per_cycle(&self, observed: &Account<f64>, cycles: f64) -> description::Outputs {
-        per_cycle(observed, |it| self.parameters[it], cycles).into()
+        per_cycle(observed, |it| self.parameters[it], self.parameters.shape(), cycles).into()
     }
 
     fn sensitivity(

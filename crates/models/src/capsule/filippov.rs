@@ -6,10 +6,10 @@ use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 
 use super::drag::Drag;
 use super::drive::Drive;
-use super::locomotion::Locomotion;
+use super::locomotion::{DriveSeries, Locomotion};
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
-use super::resistance::Resistance;
+use super::shape::Shape;
 use super::state::{EventKind, Jet, State};
 use crate::description::Parameters;
 use crate::motion::reduced;
@@ -56,13 +56,13 @@ impl<L: Lane> Default for Mode<L> {
 impl Capsule<f64> {
     /// One capsule whose drive starts at `phase` [rad].
     pub fn single(parameters: &Parameters, phase: f64) -> Self {
-        Capsule::new(|parameter| parameters[parameter], parameters.resistance(), phase)
+        Capsule::new(|parameter| parameters[parameter], parameters.shape(), phase)
     }
 }
 
 impl<L: Lane> Capsule<L> {
-    /// The capsule with these parameters under one law, whose drive starts at `phase` [rad].
-    pub fn new(of: impl Fn(Parameter) -> L, law: Resistance, phase: f64) -> Self {
+    /// The capsule with these parameters and of this shape, whose drive starts at `phase` [rad].
+    pub fn new(of: impl Fn(Parameter) -> L, shape: Shape, phase: f64) -> Self {
         Capsule {
             k1: of(Parameter::K1),
             c: of(Parameter::C),
@@ -70,8 +70,8 @@ impl<L: Lane> Capsule<L> {
             delta: of(Parameter::Delta),
             inverse_m1: L::splat(1.0) / of(Parameter::M1),
             inverse_m2: L::splat(1.0) / of(Parameter::M2),
-            drive: Drive::new(&of, L::splat(reduced(phase))),
-            drag: Drag::new(&of, law),
+            drive: Drive::new(&of, shape, L::splat(reduced(phase))),
+            drag: Drag::new(&of, shape.law),
         }
     }
 
@@ -311,8 +311,8 @@ impl<L: Lane> Switched<L> for Capsule<L> {
     }
 
     #[inline(always)]
-    fn touching<'a>(&self, jet: &'a Jet<L>) -> Option<(&'a Series<L>, L)> {
-        Some((&jet.r, self.delta))
+    fn touching<'a>(&self, jet: &'a Jet<L>) -> Option<(&'a Series<L>, [L; 2])> {
+        Some((&jet.r, [self.delta; 2]))
     }
 }
 
@@ -361,6 +361,11 @@ impl<L: Lane> Locomotion<L> for Capsule<L> {
     #[inline(always)]
     fn jet<'a>(&self, jet: &'a Jet<L>) -> &'a Jet<L> {
         jet
+    }
+
+    #[inline(always)]
+    fn drive<'a>(&self, jet: &'a Jet<L>) -> DriveSeries<'a, L> {
+        DriveSeries { force: &jet.cos, unit: self.drive.amplitude, rate: &jet.y1, reacts: false }
     }
 
     #[inline(always)]

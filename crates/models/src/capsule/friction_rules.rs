@@ -3,45 +3,25 @@
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::resistance::{Resistance, Switching};
-use crate::description::{self, NotGiven, Parameters, Remark, Rules, Threshold};
-
-/// What the capsule says of values beside each other.
-pub const RULES: Rules = Rules { no_effect, no_effect_below, remarks, missing, complete };
-
-/// Why a parameter has no effect under the law of resistance.
-fn no_effect(parameters: &Parameters, parameter: description::Parameter) -> Option<String> {
-    let law = parameters.resistance();
-    let reason = match (Parameter::which(parameter), law) {
-        (Parameter::MuS | Parameter::MuD | Parameter::Vs, Resistance::Medium) => {
-            "a medium has no dry friction"
-        }
-        (Parameter::Vs, Resistance::Coulomb) => "friction under this law does not depend on speed",
-        (Parameter::C1 | Parameter::C2, Resistance::Coulomb | Resistance::CoulombStribeck) => {
-            "it belongs to the law `medium` alone"
-        }
-        _ => return None,
-    };
-    Some(format!("under the law `{}`: {reason}", law.name()))
-}
+use crate::description::{self, NotGiven, Parameters, Remark, Threshold};
 
 /// That static friction is too small to have an effect.
-fn remarks(parameters: &Parameters) -> Vec<Remark> {
+pub(super) fn idle_static_friction(parameters: &Parameters) -> Option<Remark> {
     let about = [Parameter::MuS, Parameter::MuD].map(description::Parameter::from).to_vec();
-    let idle = parameters.idle_static_friction();
-    idle.map(|text| Remark { about, text }).into_iter().collect()
+    parameters.idle_static_friction().map(|text| Remark { about, text })
 }
 
 /// Static friction has no effect below the friction at the onset of sliding, as rest ends where the force exceeds the larger of both. In
 /// Eq. (1) as printed it always has one.
-fn no_effect_below(
+pub(super) fn no_effect_below(
     parameters: &Parameters,
     parameter: description::Parameter,
 ) -> Option<Threshold> {
     let is_bounded = parameter == Parameter::MuS && parameters.switching() == Switching::Filippov;
-    let law = parameters.resistance();
+    let is_bounded = is_bounded && !parameters.shape().has_friction_by_direction();
     is_bounded.then(|| Threshold {
-        value: law.onset_factor() * parameters[Parameter::MuD],
-        in_words: law.onset_in_words(),
+        value: parameters.onset_factor() * parameters[Parameter::MuD],
+        in_words: parameters.onset_in_words(),
         why: "where rest ends with the friction at the onset of sliding",
     })
 }
@@ -57,7 +37,7 @@ fn other(parameter: Parameter) -> Option<Parameter> {
 
 /// The coefficient of Coulomb's law that is neither given nor on an axis, where the other is on an axis: it is one number for all
 /// cases, so it cannot follow the axis.
-fn missing(
+pub(super) fn missing(
     parameters: &Parameters,
     given: description::rules::Which<'_>,
     on_axis: description::rules::Which<'_>,
@@ -79,7 +59,10 @@ fn missing(
 
 /// Completes the friction where one of mu_s and mu_d is given and the other is not: Coulomb's law knows one coefficient, so there the
 /// other takes its value.
-fn complete(parameters: &mut Parameters, given: description::rules::Which<'_>) -> Option<NotGiven> {
+pub(super) fn complete(
+    parameters: &mut Parameters,
+    given: description::rules::Which<'_>,
+) -> Option<NotGiven> {
     let (from, to) = match (given(Parameter::MuS.into()), given(Parameter::MuD.into())) {
         (true, false) => (Parameter::MuS, Parameter::MuD),
         (false, true) => (Parameter::MuD, Parameter::MuS),

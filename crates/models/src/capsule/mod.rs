@@ -1,15 +1,19 @@
 //! The vibro-impact capsule: its parameters, forces and modes, and what its motion costs and yields.
 
 pub mod account;
+mod beside;
 pub mod branch;
 pub mod description;
 pub mod filippov;
 pub mod drag;
 pub mod drive;
+mod energies;
 mod face;
 mod failure;
 mod forces;
 mod friction_rules;
+pub mod general;
+mod impacts;
 mod locomotion;
 pub mod mean_errors;
 pub mod output;
@@ -19,22 +23,29 @@ pub mod printed;
 mod quantities;
 pub mod regime;
 pub mod resistance;
+mod rules;
 pub mod sampled;
 mod sensitivity;
 mod signals;
 pub mod settle;
+pub mod shape;
+mod shown;
 pub mod simulate;
 pub mod state;
 pub mod system;
 
 pub use crate::description::{Fault, Parameters};
 pub use crate::motion::{Case, Orbit, Sensitivity};
-pub use account::{Account, Energies, Impact};
+pub use account::Account;
+pub use beside::Beside;
 pub use drive::Drive;
+pub use energies::Energies;
 pub use failure::Failure;
 pub use filippov::Capsule;
 pub use forces::Forces;
-pub use locomotion::{Contact, Locomotion, StickSlip};
+pub use general::GeneralCapsule;
+pub use impacts::{Impact, Impacts};
+pub use locomotion::{Contact, DriveSeries, Locomotion, Parts, StickSlip};
 pub use output::{Output, Outputs};
 pub use parameter::Parameter;
 pub use parameters::CapsuleParameters;
@@ -44,6 +55,7 @@ pub use sensitivity::sensitivity;
 pub use settle::{
     CapsuleCase, orbit_of, outputs, per_cycle, settle, settle_all, settle_as, settle_case,
 };
+pub use shape::{DriveKind, Form, Reaction, Shape};
 pub use simulate::{Event, Sample, Simulation, simulate, simulate_case};
 pub use state::{CapsuleState, EventKind, Jet, State};
-pub use system::{AsPrinted, CapsuleSystem, Filippov, Reading};
+pub use system::{AsPrinted, CapsuleSystem, Filippov, General, Reading};

@@ -72,6 +72,12 @@ outputs! {
     WorkActuatorError "work_actuator_error" Energy "standard error of the mean that work_actuator is of a motion that does not repeat, over batches of cycles";
     FrictionLossError "friction_loss_error" Energy "standard error of the mean that friction_loss is of a motion that does not repeat, over batches of cycles";
     DamperLossError "damper_loss_error" Energy "standard error of the mean that damper_loss is of a motion that does not repeat, over batches of cycles";
+    ContactLoss "contact_loss" Energy "energy lost in the damping of the stops per cycle";
+    DragLoss "drag_loss" Energy "part of friction_loss that is lost to drag";
+    LiftingWork "lifting_work" Energy "work against incline and load per cycle";
+    RearImpactsPerCycle "rear_impacts_per_cycle" Number "impacts on the rear stop per cycle";
+    RearPeakContactForce "rear_peak_contact_force" Force "largest force of the rear stop";
+    RearGrazingMargin "rear_grazing_margin" Length "least distance between a local minimum of x1 - x2 and the rear stop";
 }
 
 impl Output {
@@ -98,7 +104,17 @@ impl Output {
                 | Output::StickShare
                 | Output::PeakContactForce
                 | Output::GrazingMargin
+                | Output::ContactLoss
+                | Output::DragLoss
+                | Output::LiftingWork
+                | Output::RearPeakContactForce
+                | Output::RearGrazingMargin
         )
+    }
+
+    /// Whether only members of the family have more to tell by it than zero.
+    pub const fn is_optional(self) -> bool {
+        self as usize > Output::DamperLossError as usize
     }
 
     /// Its unit; "1" where it has none.

@@ -1,5 +1,6 @@
 //! The parameters of the capsule, by name, with units, meanings and what is allowed.
 
+use crate::description::Presence;
 use crate::quantity::{Allowed, Dimension};
 
 macro_rules! parameters {
@@ -11,7 +12,7 @@ macro_rules! parameters {
         }
 
         impl Parameter {
-            /// Every parameter, in the order of the paper's Table 1.
+            /// Every parameter, in the order of the paper's Table 1; those after it are optional.
             pub const ALL: &[Parameter] = &[$(Parameter::$variant,)*];
 
             /// The symbol used in studies, on the command line and in files.
@@ -59,9 +60,54 @@ parameters! {
     G "g" Acceleration NonNegative 9.81 "acceleration of gravity";
     C1 "c1" Damping NonNegative 0.0 "linear drag of the medium";
     C2 "c2" QuadraticDamping NonNegative 0.0 "quadratic drag of the medium";
+    Period "period" Time Positive 1.0 "period of the drive, in place of its frequency";
+    P0 "p_0" Force Finite 0.0 "constant part of the drive";
+    PLow "p_low" Force Finite 0.0 "force of the drive outside its pulse";
+    Duty "duty" Number Share 0.5 "share of the period that a pulse lasts";
+    Rise "rise" Number Share 0.1 "share of the period that an edge of a pulse lasts";
+    P2 "p_2" Force Finite 0.0 "amplitude of the second harmonic of the drive";
+    Phase2 "phase_2" Angle Finite 0.0 "phase of the second harmonic of the drive";
+    Incline "incline" Angle Slope 0.0 "slope of the ground; forward is uphill";
+    Load "load" Force Finite 0.0 "constant force on the capsule; forward is positive";
+    PreloadGap "preload_gap" Length Finite 0.0 "compression of the spring k1 where r = 0";
+    K3 "k3" Stiffness NonNegative 0.0 "stiffness of the rear stop";
+    Delta3 "delta_3" Length Finite 0.0 "gap between mass and rear stop";
+    K2Damping "k2_damping" Damping NonNegative 0.0 "damping of the stop in contact";
+    K3Damping "k3_damping" Damping NonNegative 0.0 "damping of the rear stop in contact";
+    K1Cubic "k1_cubic" CubicStiffness Finite 0.0 "cubic stiffness between mass and capsule";
+    K2Cubic "k2_cubic" CubicStiffness Finite 0.0 "cubic stiffness of the stop";
+    MuSForward "mu_s_forward" Number NonNegative 0.66 "static friction coefficient against forward motion";
+    MuSBackward "mu_s_backward" Number NonNegative 0.66 "static friction coefficient against backward motion";
+    MuDForward "mu_d_forward" Number NonNegative 0.33 "dynamic friction coefficient of forward motion";
+    MuDBackward "mu_d_backward" Number NonNegative 0.33 "dynamic friction coefficient of backward motion";
+    Stribeck "stribeck" Number NonNegative 1.0 "rise of friction towards rest, relative to that at speed";
+    C1Forward "c1_forward" Damping NonNegative 0.0 "linear drag of forward motion";
+    C1Backward "c1_backward" Damping NonNegative 0.0 "linear drag of backward motion";
+    C2Forward "c2_forward" QuadraticDamping NonNegative 0.0 "quadratic drag of forward motion";
+    C2Backward "c2_backward" QuadraticDamping NonNegative 0.0 "quadratic drag of backward motion";
 }
 
 impl Parameter {
+    /// Where the equations have it: what follows the paper's parameters is there where it is given, and so is a drag beside friction.
+    pub const fn presence(self) -> Presence {
+        match self {
+            Parameter::C1 | Parameter::C2 => Presence::Told,
+            _ if self as usize > Parameter::C2 as usize => Presence::Optional,
+            _ => Presence::Always,
+        }
+    }
+
+    /// The parameter that stands for it where it is not given; itself unless it is that of one direction.
+    pub const fn leader(self) -> Parameter {
+        match self {
+            Parameter::MuSForward | Parameter::MuSBackward => Parameter::MuS,
+            Parameter::MuDForward | Parameter::MuDBackward => Parameter::MuD,
+            Parameter::C1Forward | Parameter::C1Backward => Parameter::C1,
+            Parameter::C2Forward | Parameter::C2Backward => Parameter::C2,
+            own => own,
+        }
+    }
+
     /// The parameter with this symbol.
     pub fn named(symbol: &str) -> Option<Parameter> {
         Parameter::ALL.iter().copied().find(|parameter| parameter.symbol() == symbol)

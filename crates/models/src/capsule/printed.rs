@@ -9,9 +9,9 @@ use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, elementary, series, sid
 
 use super::drag::Drag;
 use super::drive::Drive;
-use super::locomotion::Locomotion;
+use super::locomotion::{DriveSeries, Locomotion};
 use super::regime::{CONTACT, GuardTerms, MassForce, PrintedMode, Regime, Rules, sign};
-use super::resistance::Resistance;
+use super::shape::Shape;
 use super::state::{EventKind, Jet, State};
 use super::{CapsuleParameters as _, Parameter};
 use crate::{description::Parameters, motion};
@@ -34,13 +34,13 @@ side_by_side!(PrintedCapsule { k1, c, k2, delta, m1, m2 } with { drive, drag });
 impl PrintedCapsule<f64> {
     /// One capsule whose drive is at `phase` at the section [rad].
     pub fn single(parameters: &Parameters, phase: f64) -> Self {
-        PrintedCapsule::new(|parameter| parameters[parameter], parameters.resistance(), phase)
+        PrintedCapsule::new(|parameter| parameters[parameter], parameters.shape(), phase)
     }
 }
 
 impl<L: Lane> PrintedCapsule<L> {
-    /// The capsule with these parameters under one law, whose drive is at `phase` at the section [rad].
-    pub fn new(of: impl Fn(Parameter) -> L, law: Resistance, phase: f64) -> Self {
+    /// The capsule with these parameters and of this shape, whose drive is at `phase` at the section [rad].
+    pub fn new(of: impl Fn(Parameter) -> L, shape: Shape, phase: f64) -> Self {
         PrintedCapsule {
             k1: of(Parameter::K1),
             c: of(Parameter::C),
@@ -48,8 +48,8 @@ impl<L: Lane> PrintedCapsule<L> {
             delta: of(Parameter::Delta),
             m1: of(Parameter::M1),
             m2: of(Parameter::M2),
-            drive: Drive::new(&of, L::splat(motion::reduced(phase))),
-            drag: Drag::new(&of, law),
+            drive: Drive::new(&of, shape, L::splat(motion::reduced(phase))),
+            drag: Drag::new(&of, shape.law),
         }
     }
 
@@ -303,8 +303,8 @@ impl<L: Lane> Switched<L> for PrintedCapsule<L> {
     }
 
     #[inline(always)]
-    fn touching<'a>(&self, jet: &'a PrintedJet<L>) -> Option<(&'a Series<L>, L)> {
-        Some((&jet.motion.r, self.delta))
+    fn touching<'a>(&self, jet: &'a PrintedJet<L>) -> Option<(&'a Series<L>, [L; 2])> {
+        Some((&jet.motion.r, [self.delta; 2]))
     }
 }
 
@@ -360,6 +360,16 @@ impl<L: Lane> Locomotion<L> for PrintedCapsule<L> {
     #[inline(always)]
     fn jet<'a>(&self, jet: &'a PrintedJet<L>) -> &'a Jet<L> {
         &jet.motion
+    }
+
+    #[inline(always)]
+    fn drive<'a>(&self, jet: &'a PrintedJet<L>) -> DriveSeries<'a, L> {
+        DriveSeries {
+            force: &jet.motion.cos,
+            unit: self.drive.amplitude,
+            rate: &jet.motion.y1,
+            reacts: false,
+        }
     }
 
     #[inline(always)]

@@ -1,8 +1,8 @@
 //! A simulated motion at given times, as sensors would see it, with exact derivatives in parameters and in the start.
 
 use crate::capsule::{
-    AsPrinted, CapsuleParameters as _, Filippov, Jet, Locomotion, Parameter, Parameters, Reading,
-    State, Switching,
+    AsPrinted, CapsuleParameters as _, DriveSeries, Filippov, Form, General, Jet, Locomotion,
+    Parameter, Parameters, Reading, State,
 };
 use crate::motion::reduced;
 use crate::quantity::Dimension;
@@ -77,7 +77,7 @@ impl Signal {
     }
 
     /// Its value in the series of a step, `h` after its beginning.
-    fn read<L: Lane>(self, jet: &Jet<L>, h: L, p_d: L) -> L {
+    fn read<L: Lane>(self, jet: &Jet<L>, h: L, drive: &DriveSeries<'_, L>) -> L {
         match self {
             Signal::X1 => series::value(&jet.r, h) + series::value(&jet.x2, h),
             Signal::X2 => series::value(&jet.x2, h),
@@ -85,7 +85,7 @@ impl Signal {
             Signal::Y1 => series::value(&jet.y1, h),
             Signal::Y2 => series::value(&jet.y2, h),
             Signal::A1 => series::value_and_slope(&jet.y1, h).1,
-            Signal::Drive => p_d * series::value(&jet.cos, h),
+            Signal::Drive => drive.unit * series::value(drive.force, h),
         }
     }
 }
@@ -179,11 +179,18 @@ pub fn sampled(
     directions: &[Direction],
     tolerance: f64,
 ) -> Result<Samples, Reason> {
-    let of_reading = match motion.parameters.switching() {
-        Switching::Filippov => sampled_as::<Filippov>,
-        Switching::AsPrinted => sampled_as::<AsPrinted>,
+    let mut parts = motion.clone();
+    for direction in directions {
+        if let Direction::Parameter(parameter) = direction {
+            parts.parameters = parts.parameters.with_part((*parameter).into());
+        }
+    }
+    let of_form = match parts.parameters.form() {
+        Form::Filippov => sampled_as::<Filippov>,
+        Form::AsPrinted => sampled_as::<AsPrinted>,
+        Form::General => sampled_as::<General>,
     };
-    of_reading(motion, times, signals, directions, tolerance)
+    of_form(&parts, times, signals, directions, tolerance)
 }
 
 fn sampled_as<R: Reading>(
@@ -237,8 +244,8 @@ fn followed<R: Reading, L: Lane>(
     signals: &[Signal],
     tolerance: f64,
 ) -> Result<Vec<Vec<L>>, Reason> {
-    let law = motion.parameters.resistance();
-    let system = R::capsule::<L>(|it| of(Direction::Parameter(it)), law, 0.0);
+    let shape = motion.parameters.shape();
+    let system = R::capsule::<L>(|it| of(Direction::Parameter(it)), shape, 0.0);
     let start = State {
         r: of(Direction::StartR),
         y1: of(Direction::StartY1),
@@ -247,11 +254,11 @@ fn followed<R: Reading, L: Lane>(
     };
     // The phase within a turn, with the derivative of the phase itself.
     let turns = L::splat(reduced(motion.phase) - motion.phase);
-    let begins = (of(Direction::StartPhase) + turns) / of(Direction::Parameter(Parameter::Omega));
+    let omega = shape.frequency(|it| of(Direction::Parameter(it)));
+    let begins = (of(Direction::StartPhase) + turns) / omega;
     let mut sampler = Sampler {
         times,
         signals,
-        p_d: of(Direction::Parameter(Parameter::Pd)),
         began: -begins,
         values: vec![Vec::with_capacity(times.len()); signals.len()],
         next: 0,
@@ -271,7 +278,6 @@ fn followed<R: Reading, L: Lane>(
 struct Sampler<'a, L> {
     times: &'a [f64],
     signals: &'a [Signal],
-    p_d: L,
     /// When the cycle began, since the start of the motion [s].
     began: L,
     values: Vec<Vec<L>>,
@@ -284,7 +290,7 @@ impl<L: Lane> Sampler<'_, L> {
     where
         R::In<L>: Stroboscopic<L, 3> + Switched<L> + Locomotion<L>,
     {
-        let jet = system.jet(&step.jet);
+        let (jet, drive) = (system.jet(&step.jet), system.drive(&step.jet));
         while let Some(&time) = self.times.get(self.next) {
             let since = L::splat(time) - (self.began + step.start);
             if step.length.lane(0) < since.lane(0) {
@@ -292,7 +298,7 @@ impl<L: Lane> Sampler<'_, L> {
             }
             // A sample that rounding puts just before its step lies at its beginning.
             for (signal, values) in self.signals.iter().zip(&mut self.values) {
-                values.push(signal.read(jet, since, self.p_d));
+                values.push(signal.read(jet, since, &drive));
             }
             self.next += 1;
         }

@@ -1,6 +1,8 @@
 //! How the section point and the outputs of a periodic orbit change with a parameter, exactly.
 
-use crate::capsule::{Account, CapsuleSystem, Parameter, Reading, per_cycle};
+use crate::capsule::{
+    Account, CapsuleParameters as _, CapsuleSystem, Parameter, Reading, per_cycle,
+};
 use crate::motion::Sensitivity;
 use capsulemap_engine::flow::System;
 use capsulemap_engine::lane::Dual;
@@ -36,12 +38,13 @@ pub fn sensitivity<R: Reading>(
     parameter: Parameter,
 ) -> Option<Sensitivity> {
     let of = Seeded { system, free: parameter };
-    let mut account = Account::new(|it| of.value(it), 0);
+    let shape = system.parameters.shape();
+    let mut account = Account::new(|it| of.value(it), shape, 0);
     let lane = system.system(|it| of.value(it));
     let image = observed(&lane, seeded(section), &cycles, &mut account).ok()?;
     let in_parameter = image.map(|it| -it.gradient[FREE]);
     let section_slope = solve(less_identity(&jacobian(&image)), in_parameter)?;
-    let outputs = per_cycle(&account, |it| of.value(it), cycles.count as f64);
+    let outputs = per_cycle(&account, |it| of.value(it), shape, cycles.count as f64);
     let slopes = outputs.map(|it| {
         let by_section = section_slope.iter().zip(it.gradient).map(|(slope, by)| slope * by);
         it.gradient[FREE] + by_section.sum::<f64>()

@@ -5,14 +5,16 @@ use std::f64::consts::PI;
 use capsulemap_engine::lane::Lane;
 use capsulemap_engine::orbit::{self, Exponent, Machine, OrbitOf, Outcome, Protocol, precision};
 
-use super::account::{Account, Energies};
+use super::account::Account;
+use super::energies::Energies;
+use super::general::balance::Balance;
 use super::mean_errors;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
-use super::resistance::Switching;
+use super::shape::{Form, Shape};
 use super::state::State;
-use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
+use super::system::{AsPrinted, CapsuleSystem, Filippov, General, Reading};
 use crate::description::{self, Parameters};
 use crate::face::{self, engine_case};
 use crate::motion::{Case, Orbit};
@@ -38,9 +40,10 @@ pub fn settle(
 /// Cycles are counted from the first section: the part of a cycle before it belongs to none. The time of a
 /// failure is counted from the start.
 pub fn settle_case(case: &Case, protocol: &Protocol) -> Orbit {
-    match case.parameters.switching() {
-        Switching::Filippov => settle_as::<Filippov>(case, protocol),
-        Switching::AsPrinted => settle_as::<AsPrinted>(case, protocol),
+    match case.parameters.form() {
+        Form::Filippov => settle_as::<Filippov>(case, protocol),
+        Form::AsPrinted => settle_as::<AsPrinted>(case, protocol),
+        Form::General => settle_as::<General>(case, protocol),
     }
 }
 
@@ -55,12 +58,14 @@ pub fn settle_as<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
 /// # Panics
 /// Where the processor does not have the instructions that `machine` asks for.
 pub fn settle_all(cases: &[Case], protocol: &Protocol, machine: Machine) -> Vec<Orbit> {
-    let filippov = settle_read::<Filippov>(cases, Switching::Filippov, protocol, machine);
-    let printed = settle_read::<AsPrinted>(cases, Switching::AsPrinted, protocol, machine);
-    let (mut filippov, mut printed) = (filippov.into_iter(), printed.into_iter());
-    let orbits = cases.iter().map(|case| match case.parameters.switching() {
-        Switching::Filippov => filippov.next(),
-        Switching::AsPrinted => printed.next(),
+    let filippov = settle_read::<Filippov>(cases, Form::Filippov, protocol, machine);
+    let printed = settle_read::<AsPrinted>(cases, Form::AsPrinted, protocol, machine);
+    let general = settle_read::<General>(cases, Form::General, protocol, machine);
+    let mut of_forms = [filippov, printed, general].map(Vec::into_iter);
+    let orbits = cases.iter().map(|case| match case.parameters.form() {
+        Form::Filippov => of_forms[0].next(),
+        Form::AsPrinted => of_forms[1].next(),
+        Form::General => of_forms[2].next(),
     });
     orbits.map(|orbit| orbit.expect("every case is settled")).collect()
 }
@@ -77,15 +82,14 @@ impl CapsuleCase for Case {
     }
 }
 
-/// The orbits of the cases that are read so, in their order.
+/// The orbits of the cases of a form, in their order.
 fn settle_read<R: Reading>(
     cases: &[Case],
-    switching: Switching,
+    form: Form,
     protocol: &Protocol,
     machine: Machine,
 ) -> Vec<Orbit> {
-    let chosen: Vec<&Case> =
-        cases.iter().filter(|case| case.parameters.switching() == switching).collect();
+    let chosen: Vec<&Case> = cases.iter().filter(|case| case.parameters.form() == form).collect();
     let read: Vec<_> = chosen.iter().map(|case| case.read::<R>()).collect();
     let orbits = orbit::settle_all(&read, protocol, machine).into_iter().zip(chosen);
     orbits.map(|(orbit, case)| orbit_of::<R>(orbit, case, protocol)).collect()
@@ -100,7 +104,7 @@ pub fn orbit_of<R: Reading>(
     face::orbit_of::<CapsuleSystem<R>, 3>(orbit, case, protocol)
 }
 
-/// Whether the friction of a periodic orbit has a mean of zero, as that of a motion that repeats must.
+/// Whether the friction of a periodic orbit balances the mean of the other forces, as that of a motion that repeats must.
 ///
 /// Beside a velocity that no ground would bring to rest in a lifetime, a section repeats to every digit while the
 /// capsule slows down.
@@ -115,10 +119,19 @@ pub(super) fn is_balanced(
     orbit.outcome != Outcome::Periodic || residual.is_infinite() || residual.abs() <= rounding
 }
 
-/// The mean friction force, relative to the forces that act.
+/// The mean friction force less the mean of the other forces along the ground, relative to the forces that act.
 fn momentum_residual(account: &Account<f64>, parameters: &Parameters) -> f64 {
-    let force = parameters[Parameter::Pd] + parameters.break_away();
-    ratio(account.friction_impulse / account.time, force)
+    let friction = account.friction_impulse / account.time;
+    if parameters.form() != Form::General {
+        return ratio(friction, parameters[Parameter::Pd] + parameters.break_away());
+    }
+    let Balance { mean, along, largest_drive, break_away, .. } = Balance::of(parameters);
+    ratio(friction - mean, largest_drive + break_away + along.abs())
+}
+
+/// The work against gravity and load, as far as the capsule has advanced [J].
+fn lifting_work<L: Lane>(account: &Account<L>, of: impl Fn(Parameter) -> L, shape: Shape) -> L {
+    -(Balance::new(of, shape).along * account.advance)
 }
 
 /// A part of a whole; zero where there is none.
@@ -157,15 +170,21 @@ pub fn outputs(
 /// The outputs per cycle, from the sums over `cycles`; costs of progression are infinite unless the capsule `moves` by more
 /// than rounding.
 fn summed(account: &Account<f64>, parameters: &Parameters, moves: bool, cycles: f64) -> Outputs {
-    let mut outputs = per_cycle(account, |it| parameters[it], cycles);
+    let mut outputs = per_cycle(account, |it| parameters[it], parameters.shape(), cycles);
     let Energies { work_net, work_absolute, friction_loss, damper_loss, .. } = account.energies;
-    let losses = friction_loss + damper_loss;
+    let mut losses = friction_loss + damper_loss;
     // Without a drive only losses are left to measure against.
-    let exchanged = work_absolute.max(losses);
+    let mut exchanged = work_absolute.max(losses);
+    if parameters.form() == Form::General {
+        let lifting = lifting_work(account, |it| parameters[it], parameters.shape());
+        losses += account.beside.contact_loss + lifting;
+        exchanged = work_absolute.max(losses).max(lifting.abs());
+    }
     for (output, value) in [
         (Output::EnergyResidual, ratio(work_net - losses, exchanged)),
         (Output::MomentumResidual, momentum_residual(account, parameters)),
         (Output::ImpactsPerCycle, account.impacts / cycles),
+        (Output::RearImpactsPerCycle, account.beside.rear_impacts / cycles),
         (Output::ForwardSlips, account.forward_slips / cycles),
         (Output::BackwardSlips, account.backward_slips / cycles),
         (Output::Reversals, account.reversals / cycles),
@@ -184,11 +203,12 @@ fn summed(account: &Account<f64>, parameters: &Parameters, moves: bool, cycles: 
 pub fn per_cycle<L: Lane>(
     account: &Account<L>,
     of: impl Fn(Parameter) -> L,
+    shape: Shape,
     cycles: f64,
 ) -> Outputs<L> {
     let mut outputs = Outputs::unknown();
-    let (energies, cycles) = (&account.energies, L::splat(cycles));
-    let drive_period = L::splat(2.0 * PI) / of(Parameter::Omega);
+    let (energies, beside, cycles) = (&account.energies, &account.beside, L::splat(cycles));
+    let drive_period = L::splat(2.0 * PI) / shape.frequency(&of);
     let normal_load = (of(Parameter::M1) + of(Parameter::M2)) * of(Parameter::G);
     let progression = account.advance / cycles;
     let distance = progression.abs();
@@ -208,6 +228,11 @@ pub fn per_cycle<L: Lane>(
         (Output::StickShare, account.stick_time / account.time),
         (Output::PeakContactForce, account.peak_contact_force),
         (Output::GrazingMargin, account.grazing_margin),
+        (Output::ContactLoss, beside.contact_loss / cycles),
+        (Output::DragLoss, beside.drag_loss / cycles),
+        (Output::LiftingWork, lifting_work(account, &of, shape) / cycles),
+        (Output::RearPeakContactForce, beside.rear_peak_force),
+        (Output::RearGrazingMargin, beside.rear_margin),
     ] {
         outputs[output] = value;
     }

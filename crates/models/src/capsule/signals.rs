@@ -72,6 +72,9 @@ pub(super) const MOTION: MotionDescription = MotionDescription {
         "slip-backward",
         "stick",
         "reversal",
+        "rear-contact-closed",
+        "rear-contact-opened",
+        "drive-edge",
     ],
     // Those of which the outputs are the parts of a cycle.
     sums: &[

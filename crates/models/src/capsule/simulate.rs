@@ -3,11 +3,11 @@
 use serde::Serialize;
 
 use super::Failure;
-use super::account::Energies;
+use super::energies::Energies;
 use super::parameters::CapsuleParameters as _;
-use super::resistance::Switching;
+use super::shape::Form;
 use super::state::{EventKind, State};
-use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
+use super::system::{AsPrinted, CapsuleSystem, Filippov, General, Reading};
 use crate::description::{self, Parameters};
 use crate::face::{Followed, followed};
 use crate::motion::{Case, SimulationSize};
@@ -71,9 +71,10 @@ pub fn simulate(
 /// Follows the capsule from the start of `case` to the first section, and for `cycles` drive cycles from
 /// there. Times and sums are counted from the start.
 pub fn simulate_case(case: &Case, cycles: u64, tolerance: f64) -> Simulation {
-    match case.parameters.switching() {
-        Switching::Filippov => simulate_as::<Filippov>(case, cycles, tolerance),
-        Switching::AsPrinted => simulate_as::<AsPrinted>(case, cycles, tolerance),
+    match case.parameters.form() {
+        Form::Filippov => simulate_as::<Filippov>(case, cycles, tolerance),
+        Form::AsPrinted => simulate_as::<AsPrinted>(case, cycles, tolerance),
+        Form::General => simulate_as::<General>(case, cycles, tolerance),
     }
 }
 

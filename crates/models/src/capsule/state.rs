@@ -84,6 +84,12 @@ pub enum EventKind {
     Stick,
     /// The capsule turns round without resting.
     Reversal,
+    /// The mass reaches the rear stop.
+    RearContactClosed,
+    /// The mass leaves the rear stop.
+    RearContactOpened,
+    /// The drive passes an edge.
+    DriveEdge,
 }
 
 impl Event for EventKind {
@@ -94,6 +100,9 @@ impl Event for EventKind {
         EventKind::SlipBackward,
         EventKind::Stick,
         EventKind::Reversal,
+        EventKind::RearContactClosed,
+        EventKind::RearContactOpened,
+        EventKind::DriveEdge,
     ];
 
     #[inline(always)]
@@ -102,7 +111,11 @@ impl Event for EventKind {
     }
 
     fn is_impact(self) -> bool {
-        self == EventKind::ContactClosed
+        matches!(self, EventKind::ContactClosed | EventKind::RearContactClosed)
+    }
+
+    fn is_timed(self) -> bool {
+        self == EventKind::DriveEdge
     }
 }
 

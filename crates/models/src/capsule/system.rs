@@ -8,16 +8,17 @@ use capsulemap_engine::lane::{Lane, SideBySide};
 
 use super::account::Account;
 use super::filippov::{self, Capsule};
+use super::general::{GeneralCapsule, GeneralMode};
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::printed::PrintedCapsule;
 use super::regime::PrintedMode;
-use super::resistance::Resistance;
+use super::shape::Shape;
 use super::state::{EventKind, State};
 use crate::description::Parameters;
 
-/// A reading of the switching between stick and slip.
+/// A form of the equations, with a reading of the switching between stick and slip.
 pub trait Reading: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// Which field acts.
     type Mode<L: Lane>: Copy + Default + Send + SideBySide<One = Self::Mode<f64>>;
@@ -36,13 +37,17 @@ pub trait Reading: Copy + Debug + PartialEq + Send + Sync + 'static {
 
     /// The capsule with these parameters, whose drive is at `phase` at the section [rad].
     fn single(parameters: &Parameters, phase: f64) -> Self::Single;
-    /// The capsule with these parameters under one law, whose drive is at `phase` at the section [rad].
-    fn capsule<L: Lane>(of: impl Fn(Parameter) -> L, law: Resistance, phase: f64) -> Self::In<L>;
+    /// The capsule with these parameters and of this shape, whose drive is at `phase` at the section [rad].
+    fn capsule<L: Lane>(of: impl Fn(Parameter) -> L, shape: Shape, phase: f64) -> Self::In<L>;
 }
 
 /// Friction is set-valued at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Filippov;
+
+/// The family of capsules; friction is set-valued at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct General;
 
 /// Eq. (1) of the paper to the letter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,8 +62,26 @@ impl Reading for Filippov {
         Capsule::single(parameters, phase)
     }
 
-    fn capsule<L: Lane>(of: impl Fn(Parameter) -> L, law: Resistance, phase: f64) -> Capsule<L> {
-        Capsule::new(of, law, phase)
+    fn capsule<L: Lane>(of: impl Fn(Parameter) -> L, shape: Shape, phase: f64) -> Capsule<L> {
+        Capsule::new(of, shape, phase)
+    }
+}
+
+impl Reading for General {
+    type Mode<L: Lane> = GeneralMode<L>;
+    type Single = GeneralCapsule<f64>;
+    type In<L: Lane> = GeneralCapsule<L>;
+
+    fn single(parameters: &Parameters, phase: f64) -> GeneralCapsule<f64> {
+        GeneralCapsule::new(|parameter| parameters[parameter], parameters.shape(), phase)
+    }
+
+    fn capsule<L: Lane>(
+        of: impl Fn(Parameter) -> L,
+        shape: Shape,
+        phase: f64,
+    ) -> GeneralCapsule<L> {
+        GeneralCapsule::new(of, shape, phase)
     }
 }
 
@@ -73,10 +96,10 @@ impl Reading for AsPrinted {
 
     fn capsule<L: Lane>(
         of: impl Fn(Parameter) -> L,
-        law: Resistance,
+        shape: Shape,
         phase: f64,
     ) -> PrintedCapsule<L> {
-        PrintedCapsule::new(of, law, phase)
+        PrintedCapsule::new(of, shape, phase)
     }
 }
 
@@ -112,7 +135,7 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
     }
 
     fn system<L: Lane>(&self, of: impl Fn(Parameter) -> L) -> R::In<L> {
-        R::capsule(of, self.parameters.resistance(), self.phase)
+        R::capsule(of, self.parameters.shape(), self.phase)
     }
 
     fn value(&self, parameter: Parameter) -> f64 {
@@ -137,9 +160,9 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
         parameter.allowed().admits(value)
     }
 
-    /// Lanes share one law of resistance.
+    /// Lanes share one shape.
     fn is_alike(&self, other: &Self) -> bool {
-        self.parameters.resistance() == other.parameters.resistance()
+        self.parameters.shape() == other.parameters.shape()
     }
 
     fn shares_all_but_parameters(&self, other: &Self) -> bool {
@@ -148,7 +171,7 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
 
     /// Amplitude of the velocity of the mass while nothing slips or touches [m/s].
     fn expected_size(&self) -> f64 {
-        let [p_d, omega] = [Parameter::Pd, Parameter::Omega].map(|it| self.parameters[it]);
+        let (p_d, omega) = (self.parameters[Parameter::Pd], self.parameters.frequency());
         let [k1, m1, c] =
             [Parameter::K1, Parameter::M1, Parameter::C].map(|it| self.parameters[it]);
         let spring = k1 - m1 * omega * omega;

@@ -17,4 +17,6 @@ pub struct Choice {
     pub tag: &'static str,
     /// The same of each of the options.
     pub option_tags: &'static [&'static str],
+    /// Whether it is told of only where another than the first option is chosen.
+    pub is_optional: bool,
 }

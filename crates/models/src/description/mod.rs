@@ -19,7 +19,7 @@ use crate::quantity::Quantity;
 pub use choice::Choice;
 pub use motion::{Chart, MotionDescription, Signal, SignalGroup, SignalKind, Source};
 pub use output::{Output, OutputDescription, Outputs};
-pub use parameter::{Parameter, ParameterDescription};
+pub use parameter::{Parameter, ParameterDescription, Presence};
 pub use parameters::{Fault, Parameters};
 pub use roles::{DriveRoles, Roles, TradeOffRoles};
 pub use rules::{NotGiven, Remark, Rules, Threshold};

@@ -15,6 +15,8 @@ pub struct OutputDescription {
     pub tag: &'static str,
     /// Whether it changes smoothly along a family of orbits with the same events, so that it has derivatives in the parameters.
     pub is_smooth: bool,
+    /// Whether studies that name no outputs keep it only where the equations have something that is optional.
+    pub is_optional: bool,
 }
 
 /// A number that sums up a case of a model.
@@ -55,6 +57,11 @@ impl Output {
     /// Whether it changes smoothly along a family of orbits with the same events, so that it has derivatives in the parameters.
     pub fn is_smooth(self) -> bool {
         self.model.outputs[self.index].is_smooth
+    }
+
+    /// Whether studies that name no outputs keep it only where the equations have something that is optional.
+    pub fn is_optional(self) -> bool {
+        self.model.outputs[self.index].is_optional
     }
 
     /// The name used in studies and files.

@@ -18,6 +18,19 @@ pub struct ParameterDescription {
     pub default: f64,
     /// Whether a study has to say what it is.
     pub is_asked_for: bool,
+    /// Where the equations have it, and where it is told of.
+    pub presence: Presence,
+}
+
+/// Where the equations of a model have a parameter, and where it is told of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Presence {
+    /// They always have it.
+    Always,
+    /// They have it where it is given; it is always told of.
+    Told,
+    /// They have it where it is given, and only there it is told of.
+    Optional,
 }
 
 /// A parameter of a model.
@@ -82,6 +95,11 @@ impl Parameter {
     /// Whether a study has to say what it is.
     pub fn is_asked_for(self) -> bool {
         self.described().is_asked_for
+    }
+
+    /// Where the equations have it, and where it is told of.
+    pub fn presence(self) -> Presence {
+        self.described().presence
     }
 
     /// Its value where none is given (SI).

@@ -4,24 +4,34 @@ use std::f64::consts::PI;
 use std::fmt::{self, Debug, Formatter};
 use std::ops::{Index, IndexMut};
 
-use super::{Description, Parameter};
+use super::{Choice, Description, Parameter, Presence};
 use crate::quantity::Dimension;
 
 /// A value for every parameter of a model (SI), and what is chosen beside them.
+///
+/// A parameter that the equations have only where it is given ([`Presence`]) is given once it has been written to, be it with its
+/// default.
 #[derive(Clone, PartialEq)]
 pub struct Parameters {
     model: &'static Description,
     values: Vec<f64>,
     chosen: Vec<usize>,
+    /// Those that the equations have only where they are given and that are, as bits by place.
+    given: u64,
 }
 
-/// As fingerprints of studies have it.
+/// As fingerprints of studies have it: what is optional is in it only where it is given.
 impl Debug for Parameters {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut text = f.debug_struct("Parameters");
-        text.field("values", &self.values);
-        for (choice, option) in self.model.choices.iter().zip(&self.chosen) {
-            text.field(choice.tag, &format_args!("{}", choice.option_tags[*option]));
+        let always = self.each().filter(|(it, _)| it.presence() != Presence::Optional);
+        text.field("values", &always.map(|(_, value)| value).collect::<Vec<f64>>());
+        let optional = self.stated().filter(|(it, _)| it.presence() == Presence::Optional);
+        for (parameter, value) in optional {
+            text.field(&format!("{parameter:?}"), &value);
+        }
+        for (choice, option) in self.stated_options() {
+            text.field(choice.tag, &format_args!("{}", choice.option_tags[option]));
         }
         text.finish()
     }
@@ -52,7 +62,7 @@ impl Parameters {
     /// The defaults of a model.
     pub fn of(model: &'static Description) -> Parameters {
         let values = model.parameters.iter().map(|it| it.default).collect();
-        Parameters { model, values, chosen: vec![0; model.choices.len()] }
+        Parameters { model, values, chosen: vec![0; model.choices.len()], given: 0 }
     }
 
     /// The model whose parameters they are.
@@ -65,9 +75,48 @@ impl Parameters {
         self.model.parameters().zip(self.values.iter().copied())
     }
 
+    /// Those that there is something to tell of: all but the optional ones that are not given.
+    pub fn stated(&self) -> impl Iterator<Item = (Parameter, f64)> + '_ {
+        self.each().filter(|(it, _)| it.presence() != Presence::Optional || self.is_given(*it))
+    }
+
+    /// Whether a parameter that the equations have only where it is given has been given.
+    pub fn is_given(&self, parameter: Parameter) -> bool {
+        self.given >> place(self.model, parameter) & 1 != 0
+    }
+
+    /// They where the equations have a parameter, as where it varies.
+    pub fn with_part(mut self, parameter: Parameter) -> Parameters {
+        let value = self[parameter];
+        self[parameter] = value;
+        self
+    }
+
+    /// Takes the value of a parameter over from others, and whether it is given.
+    pub fn take(&mut self, parameter: Parameter, other: &Parameters) {
+        let place = place(self.model, parameter);
+        self.values[place] = other[parameter];
+        self.given = (self.given & !(1 << place)) | (other.given & (1 << place));
+    }
+
+    /// What is chosen otherwise than usual, each by its name with the name of what is chosen.
+    pub fn unusual_choices(&self) -> impl Iterator<Item = (&'static str, &'static str)> + '_ {
+        let chosen = self.stated_options().filter(|(_, option)| *option > 0);
+        chosen.map(|(choice, option)| (choice.name, choice.options[option]))
+    }
+
+    /// Whether the equations have anything that is optional.
+    pub fn have_optional_parts(&self) -> bool {
+        let is_chosen = |(choice, option): (&Choice, usize)| choice.is_optional && option > 0;
+        let is_given = |it: Parameter| it.presence() == Presence::Optional && self.is_given(it);
+        self.model.parameters().any(is_given) || self.stated_options().any(is_chosen)
+    }
+
     /// The period of the drive [s]; none of a model without one.
     pub fn period_of_drive(&self) -> Option<f64> {
-        Some(2.0 * PI / self[self.model.drive_frequency()?])
+        let by_frequency = 2.0 * PI / self[self.model.drive_frequency()?];
+        let by_period = self.model.drive_period().filter(|it| self.is_given(*it));
+        Some(by_period.map_or(by_frequency, |it| self[it]))
     }
 
     /// Every value that is not allowed.
@@ -86,10 +135,15 @@ impl Parameters {
         self.chosen[choice] = option;
     }
 
-    /// Each choice of the model by its name, with the name of what is chosen.
+    /// Each choice that there is something to tell of by its name, with the name of what is chosen.
     pub fn choices(&self) -> impl Iterator<Item = (&'static str, &'static str)> + '_ {
-        let both = self.model.choices.iter().zip(&self.chosen);
-        both.map(|(choice, option)| (choice.name, choice.options[*option]))
+        self.stated_options().map(|(choice, option)| (choice.name, choice.options[option]))
+    }
+
+    /// The choices that there is something to tell of, each with the place of what is chosen.
+    fn stated_options(&self) -> impl Iterator<Item = (&'static Choice, usize)> + '_ {
+        let both = self.model.choices.iter().zip(self.chosen.iter().copied());
+        both.filter(|(choice, option)| !choice.is_optional || *option > 0)
     }
 }
 
@@ -106,7 +160,11 @@ impl<P: Into<Parameter>> Index<P> for Parameters {
 
 impl<P: Into<Parameter>> IndexMut<P> for Parameters {
     fn index_mut(&mut self, parameter: P) -> &mut f64 {
-        &mut self.values[place(self.model, parameter.into())]
+        let place = place(self.model, parameter.into());
+        if self.model.parameters[place].presence != Presence::Always {
+            self.given |= 1 << place;
+        }
+        &mut self.values[place]
     }
 }
 

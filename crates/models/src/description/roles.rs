@@ -36,6 +36,8 @@ pub struct Roles {
 pub struct DriveRoles {
     /// Its frequency; a cycle is one of its periods.
     pub frequency: usize,
+    /// Its period, which stands for the frequency where it is given, if there is such a parameter.
+    pub period: Option<usize>,
     /// Its amplitude, that of a force.
     pub amplitude: usize,
 }
@@ -111,6 +113,11 @@ impl Description {
     /// The frequency of the drive, of which a cycle is a period, if there is one.
     pub fn drive_frequency(&'static self) -> Option<Parameter> {
         self.roles.drive.map(|it| Parameter::of(self, it.frequency))
+    }
+
+    /// The period of the drive, which stands for its frequency where it is given, if there is such a parameter.
+    pub fn drive_period(&'static self) -> Option<Parameter> {
+        self.roles.drive.and_then(|it| it.period).map(|place| Parameter::of(self, place))
     }
 
     /// The amplitude of the drive, that of a force, if there is one.

@@ -41,8 +41,12 @@ pub struct Rules {
     pub no_effect: fn(&Parameters, Parameter) -> Option<String>,
     /// The value below which a parameter has no effect beside the others; none where it always has one.
     pub no_effect_below: fn(&Parameters, Parameter) -> Option<Threshold>,
-    /// What has no effect at these values.
+    /// What has no effect at these values, and what else is to be said of them.
     pub remarks: fn(&Parameters) -> Vec<Remark>,
+    /// What cannot be computed at these values, with the drive at a phase at the section [rad].
+    pub conflicts: fn(&Parameters, f64) -> Vec<Remark>,
+    /// Which member of its family the model is by what is chosen and given, in words; none where it is the usual one.
+    pub member: fn(&Parameters) -> Option<String>,
     /// A parameter that has to be given, as another, which is on an axis, cannot stand for it; `given` and `on_axis` tell which are.
     pub missing: fn(&Parameters, Which<'_>, Which<'_>) -> Option<NotGiven>,
     /// Takes a value for a parameter that is not given from another that is; says which, if it did.
@@ -55,6 +59,8 @@ impl Rules {
         no_effect: |_, _| None,
         no_effect_below: |_, _| None,
         remarks: |_| Vec::new(),
+        conflicts: |_, _| Vec::new(),
+        member: |_| None,
         missing: |_, _, _| None,
         complete: |_, _| None,
     };

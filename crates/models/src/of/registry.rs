@@ -5,9 +5,9 @@ use std::sync::{PoisonError, RwLock};
 
 use capsulemap_engine::orbit::Protocol;
 
-use super::{AS_PRINTED, FILIPPOV};
+use super::{AS_PRINTED, FILIPPOV, GENERAL};
 use crate::capsule::description::CAPSULE;
-use crate::capsule::{CapsuleParameters as _, Switching};
+use crate::capsule::{CapsuleParameters as _, Form};
 use crate::description::{Description, Parameters};
 use crate::model::Model;
 use crate::motion::{Case, Orbit};
@@ -74,7 +74,7 @@ pub fn default_model() -> &'static Description {
     &CAPSULE
 }
 
-/// The model that has these parameters; of a capsule by how its friction is read.
+/// The model that has these parameters; of a capsule by the form of its equations.
 ///
 /// # Panics
 /// Where it is not registered.
@@ -83,9 +83,10 @@ pub fn default_model() -> &'static Description {
 pub fn model_of(parameters: &Parameters) -> &'static dyn Model {
     let description = parameters.model();
     if *description == CAPSULE {
-        return match parameters.switching() {
-            Switching::Filippov => &FILIPPOV,
-            Switching::AsPrinted => &AS_PRINTED,
+        return match parameters.form() {
+            Form::Filippov => &FILIPPOV,
+            Form::AsPrinted => &AS_PRINTED,
+            Form::General => &GENERAL,
         };
     }
     let others = OTHERS.read().unwrap_or_else(PoisonError::into_inner);

@@ -1,5 +1,6 @@
 //! Physical dimensions with their units, and what values a quantity may take.
 
+use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
 /// A physical dimension that a parameter, a coordinate or an output can have.
@@ -9,6 +10,8 @@ pub enum Dimension {
     Mass,
     /// Stiffness [N/m].
     Stiffness,
+    /// Stiffness of a cubic spring [N/m^3].
+    CubicStiffness,
     /// Viscous damping [N s/m].
     Damping,
     /// Quadratic drag [N s^2/m^2].
@@ -45,9 +48,10 @@ pub enum Dimension {
 
 impl Dimension {
     /// All of them.
-    pub const ALL: [Dimension; 18] = [
+    pub const ALL: [Dimension; 19] = [
         Dimension::Mass,
         Dimension::Stiffness,
+        Dimension::CubicStiffness,
         Dimension::Damping,
         Dimension::QuadraticDamping,
         Dimension::Length,
@@ -71,6 +75,7 @@ impl Dimension {
         match self {
             Dimension::Mass => "kg",
             Dimension::Stiffness => "N/m",
+            Dimension::CubicStiffness => "N/m3",
             Dimension::Damping => "N s/m",
             Dimension::QuadraticDamping => "N s2/m2",
             Dimension::Length => "m",
@@ -100,6 +105,10 @@ pub enum Allowed {
     NonNegative,
     /// Finite and above zero.
     Positive,
+    /// Above 0 and below 1.
+    Share,
+    /// Above -pi/2 and below pi/2, an angle.
+    Slope,
 }
 
 impl Allowed {
@@ -110,6 +119,8 @@ impl Allowed {
                 Allowed::Finite => true,
                 Allowed::NonNegative => value >= 0.0,
                 Allowed::Positive => value > 0.0,
+                Allowed::Share => value > 0.0 && value < 1.0,
+                Allowed::Slope => value.abs() < FRAC_PI_2,
             }
     }
 }
@@ -120,6 +131,8 @@ impl fmt::Display for Allowed {
             Allowed::Finite => "a finite number",
             Allowed::NonNegative => "a finite number, zero or above",
             Allowed::Positive => "a finite number above zero",
+            Allowed::Share => "a number above 0 and below 1",
+            Allowed::Slope => "an angle above -90 deg and below 90 deg",
         })
     }
 }

@@ -11,6 +11,7 @@ fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
         Dimension::Stiffness => {
             &[("N/m", 1.0), ("kN/m", 1e3), ("MN/m", 1e6), ("N/mm", 1e3), ("N/cm", 1e2)]
         }
+        Dimension::CubicStiffness => &[("N/m3", 1.0), ("kN/m3", 1e3), ("N/mm3", 1e9)],
         Dimension::Damping => &[("N s/m", 1.0), ("kg/s", 1.0), ("N s/mm", 1e3), ("kN s/m", 1e3)],
         Dimension::QuadraticDamping => &[("N s2/m2", 1.0), ("kg/m", 1.0)],
         Dimension::Length => &[
@@ -48,6 +49,7 @@ fn name(dimension: Dimension) -> &'static str {
     match dimension {
         Dimension::Mass => "a mass",
         Dimension::Stiffness => "a stiffness",
+        Dimension::CubicStiffness => "a cubic stiffness",
         Dimension::Damping => "a damping",
         Dimension::QuadraticDamping => "a quadratic damping",
         Dimension::Length => "a length",

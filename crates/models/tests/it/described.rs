@@ -7,7 +7,7 @@ use capsulemap_models::capsule::{
     Switching,
 };
 use capsulemap_models::description::{
-    self, Description, MotionDescription, ParameterDescription, Section,
+    self, Description, MotionDescription, ParameterDescription, Presence, Section,
 };
 use capsulemap_models::of::default_model;
 use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
@@ -21,6 +21,7 @@ static OTHER: Description = Description {
         allowed: Allowed::Positive,
         default: 2.0,
         is_asked_for: false,
+        presence: Presence::Always,
     }],
     choices: &[],
     coordinates: &[],

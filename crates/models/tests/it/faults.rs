@@ -5,7 +5,7 @@ use capsulemap_models::capsule::description::CAPSULE;
 use capsulemap_models::capsule::{CapsuleParameters as _, Parameters, Switching};
 use capsulemap_models::description::{
     CoordinateDescription, Description, MotionDescription, Outputs, Parameter,
-    ParameterDescription, Roles, Rules, State,
+    ParameterDescription, Presence, Roles, Rules, State,
 };
 use capsulemap_models::face::{Face, faults};
 use capsulemap_models::of::model_of;
@@ -24,7 +24,14 @@ const fn number(name: &'static str) -> Quantity {
 
 const fn parameter(name: &'static str, default: f64) -> ParameterDescription {
     let allowed = Allowed::NonNegative;
-    ParameterDescription { quantity: number(name), tag: name, allowed, default, is_asked_for: true }
+    ParameterDescription {
+        quantity: number(name),
+        tag: name,
+        allowed,
+        default,
+        is_asked_for: true,
+        presence: Presence::Always,
+    }
 }
 
 const fn coordinate(name: &'static str, start: &'static str) -> CoordinateDescription {

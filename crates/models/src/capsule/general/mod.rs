@@ -1,0 +1,16 @@
+//! The family of capsules in general: driven by any of the drives, between two stops, on any ground.
+
+pub mod balance;
+mod drive;
+mod equations;
+mod field;
+mod ground;
+mod springs;
+mod state;
+mod switch;
+
+pub use drive::{PiecewiseDrive, edge_at};
+pub use equations::GeneralCapsule;
+pub use ground::Ground;
+pub use springs::Springs;
+pub use state::{GeneralJet, GeneralMode};

@@ -1,0 +1,120 @@
+//! What the capsule says of its parameters beside each other: what has no effect, what cannot be, and which member of the family it is.
+
+use super::friction_rules::{complete, idle_static_friction, missing, no_effect_below};
+use super::general::balance::Balance;
+use super::general::edge_at;
+use super::parameter::Parameter;
+use super::parameters::CapsuleParameters as _;
+use super::resistance::Switching;
+use super::shape::{DriveKind, Form, Reaction};
+use crate::description::{self, Parameters, Remark, Rules};
+
+/// What the capsule says of values beside each other.
+pub const RULES: Rules =
+    Rules { no_effect, no_effect_below, remarks, conflicts, member, missing, complete };
+
+/// Why a parameter has no effect by what is chosen and given.
+fn no_effect(parameters: &Parameters, parameter: description::Parameter) -> Option<String> {
+    parameters.shape().no_effect(Parameter::which(parameter))
+}
+
+/// That static friction is too small to have an effect, and that nothing holds the mean force.
+fn remarks(parameters: &Parameters) -> Vec<Remark> {
+    idle_static_friction(parameters).into_iter().chain(runaway(parameters)).collect()
+}
+
+/// These parameters, as a remark is about them.
+fn described(parameters: &[Parameter]) -> Vec<description::Parameter> {
+    parameters.iter().map(|it| (*it).into()).collect()
+}
+
+/// That the capsule accelerates for ever once it slides on.
+fn runaway(parameters: &Parameters) -> Option<Remark> {
+    if parameters.form() != Form::General {
+        return None;
+    }
+    let balance = Balance::of(parameters);
+    let Balance { mean, sliding, .. } = balance;
+    let about = described(&[
+        Parameter::Pd,
+        Parameter::P0,
+        Parameter::PLow,
+        Parameter::Duty,
+        Parameter::Incline,
+        Parameter::Load,
+        Parameter::MuD,
+        Parameter::MuDForward,
+        Parameter::MuDBackward,
+    ]);
+    let text = format!(
+        "the mean force along the ground, {mean:.4} N, exceeds the friction of sliding, {sliding:.4} N: a capsule that slides on \
+         accelerates for ever, and its case fails as `runaway`"
+    );
+    (!balance.holds()).then_some(Remark { about, text })
+}
+
+/// What cannot be computed, with the drive at `phase` at the section [rad].
+fn conflicts(parameters: &Parameters, phase: f64) -> Vec<Remark> {
+    let conflicts = [as_printed(parameters), long_edges(parameters), on_edge(parameters, phase)];
+    conflicts.into_iter().flatten().collect()
+}
+
+/// That the equation as printed has no other members.
+fn as_printed(parameters: &Parameters) -> Option<Remark> {
+    let is_member = parameters.shape().form(Switching::Filippov) == Form::General;
+    let is_printed = parameters.switching() == Switching::AsPrinted;
+    let text = "the reading `as-printed` knows a harmonic drive, one stop and even ground alone; the family of capsules has the reading `filippov`";
+    let about = parameters.stated().map(|(it, _)| it).filter(|it| parameters.is_given(*it));
+    (is_member && is_printed).then(|| Remark { about: about.collect(), text: text.to_owned() })
+}
+
+/// That the edges of a pulse do not fit into the period.
+fn long_edges(parameters: &Parameters) -> Option<Remark> {
+    let [duty, rise] = [Parameter::Duty, Parameter::Rise].map(|it| parameters[it]);
+    let is_long = parameters.shape().drive == DriveKind::Trapezoid && rise > duty.min(1.0 - duty);
+    is_long.then(|| Remark {
+        about: described(&[Parameter::Rise, Parameter::Duty]),
+        text: format!(
+            "rise = {rise} with duty = {duty}: an edge must be no longer than the pulse and than what is left of the period"
+        ),
+    })
+}
+
+/// That a section lies on an edge of the drive which other parameters move.
+fn on_edge(parameters: &Parameters, phase: f64) -> Option<Remark> {
+    let edge = edge_at(parameters, phase)?;
+    Some(Remark {
+        about: described(&[Parameter::Duty, Parameter::Rise]),
+        text: format!(
+            "the section at phase {phase} rad lies on the edge of the drive at {edge} of its period; only the edge at phase 0 may be a \
+             section, which is just before it"
+        ),
+    })
+}
+
+/// Which member of the family a capsule is, in words; none where it is that of the paper.
+fn member(parameters: &Parameters) -> Option<String> {
+    if parameters.form() != Form::General {
+        return None;
+    }
+    let shape = parameters.shape();
+    let mut parts = vec![format!("{} drive", shape.drive.name())];
+    if shape.reaction == Reaction::Capsule {
+        parts.push("its reaction on the capsule".to_owned());
+    }
+    for (is_part, name) in [
+        (shape.has(Parameter::Incline), "an incline"),
+        (shape.has(Parameter::Load), "a load"),
+        (shape.has_rear_stop(), "a rear stop"),
+        (shape.has(Parameter::PreloadGap), "a preloaded spring"),
+        (shape.has_damped_stops(), "damped stops"),
+        (shape.has_cubic_terms(), "cubic terms"),
+        (shape.has_friction_by_direction(), "resistance by direction"),
+        (shape.has_drag() && !shape.is_medium(), "drag beside friction"),
+    ] {
+        if is_part {
+            parts.push(name.to_owned());
+        }
+    }
+    Some(parts.join(", "))
+}

@@ -1,0 +1,240 @@
+//! What the equations of a capsule are made of: its member of the family, apart from the values of its parameters.
+
+use std::f64::consts::PI;
+
+use capsulemap_engine::lane::Lane;
+
+use super::parameter::Parameter;
+use super::resistance::{Resistance, Switching};
+use crate::description::Parameters;
+
+/// How the force on the mass depends on the phase of the drive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DriveKind {
+    /// `p_d cos(phase)`.
+    #[default]
+    Harmonic,
+    /// `p_0 + p_d` for a share `duty` of the period from phase 0 on, then `p_0 + p_low`.
+    Square,
+    /// The same with edges that last a share `rise` of the period.
+    Trapezoid,
+    /// `p_0 + p_d cos(phase) + p_2 cos(2 phase + phase_2)`.
+    TwoHarmonics,
+}
+
+impl DriveKind {
+    /// Every kind by its name in studies and files, in the order of declaration.
+    pub const NAMES: [(&str, DriveKind); 4] = [
+        ("harmonic", DriveKind::Harmonic),
+        ("square", DriveKind::Square),
+        ("trapezoid", DriveKind::Trapezoid),
+        ("two-harmonics", DriveKind::TwoHarmonics),
+    ];
+
+    /// Their names.
+    pub const OPTIONS: [&'static str; 4] = [
+        DriveKind::NAMES[0].0,
+        DriveKind::NAMES[1].0,
+        DriveKind::NAMES[2].0,
+        DriveKind::NAMES[3].0,
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        DriveKind::NAMES[self as usize].0
+    }
+
+    /// At how many phases of a cycle the force has an edge.
+    pub const fn edges(self) -> usize {
+        match self {
+            DriveKind::Harmonic | DriveKind::TwoHarmonics => 0,
+            DriveKind::Square => 2,
+            DriveKind::Trapezoid => 4,
+        }
+    }
+}
+
+/// What takes up the reaction of the force on the mass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Reaction {
+    /// An external field: the capsule does not feel the drive.
+    #[default]
+    None,
+    /// The capsule, as the drive acts between it and the mass.
+    Capsule,
+}
+
+impl Reaction {
+    /// Every one by its name in studies and files, in the order of declaration.
+    pub const NAMES: [(&str, Reaction); 2] =
+        [("none", Reaction::None), ("capsule", Reaction::Capsule)];
+
+    /// Their names.
+    pub const OPTIONS: [&'static str; 2] = [Reaction::NAMES[0].0, Reaction::NAMES[1].0];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Reaction::NAMES[self as usize].0
+    }
+}
+
+/// By which equations a capsule moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// Those of the paper, friction set-valued at rest.
+    Filippov,
+    /// Eq. (1) of the paper to the letter.
+    AsPrinted,
+    /// Those of the family, friction set-valued at rest.
+    General,
+}
+
+/// What of a capsule's equations is the same whatever the values of its parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shape {
+    /// The law of resistance.
+    pub law: Resistance,
+    /// The drive.
+    pub drive: DriveKind,
+    /// What takes up its reaction.
+    pub reaction: Reaction,
+    /// The parameters that are given, of those that the equations have only then, as bits by their order.
+    given: u64,
+}
+
+impl Shape {
+    /// That of a capsule with these parameters.
+    pub fn of(parameters: &Parameters) -> Shape {
+        let [law, _, drive, reaction] = [0, 1, 2, 3].map(|choice| parameters.chosen(choice));
+        let bit = |it: &Parameter| u64::from(parameters.is_given((*it).into())) << *it as u64;
+        Shape {
+            law: Resistance::NAMES[law].1,
+            drive: DriveKind::NAMES[drive].1,
+            reaction: Reaction::NAMES[reaction].1,
+            given: Parameter::ALL.iter().map(bit).sum(),
+        }
+    }
+
+    /// The frequency of the drive [rad/s].
+    pub fn frequency<L: Lane>(self, of: impl Fn(Parameter) -> L) -> L {
+        match self.has(Parameter::Period) {
+            true => L::splat(2.0 * PI) / of(Parameter::Period),
+            false => of(Parameter::Omega),
+        }
+    }
+
+    /// Whether a parameter that the equations have only where it is given is.
+    pub const fn has(self, parameter: Parameter) -> bool {
+        self.given >> parameter as u64 & 1 != 0
+    }
+
+    /// Whether any of these is.
+    pub fn has_any(self, parameters: &[Parameter]) -> bool {
+        parameters.iter().any(|it| self.has(*it))
+    }
+
+    /// The parameter whose value counts for one: that of both directions for that of one which is not given.
+    pub fn source(self, parameter: Parameter) -> Parameter {
+        if self.has(parameter) { parameter } else { parameter.leader() }
+    }
+
+    /// Whether there may be a rear stop.
+    pub fn has_rear_stop(self) -> bool {
+        self.has_any(&[Parameter::K3, Parameter::K3Damping])
+    }
+
+    /// Whether a spring or a stop may have a cubic term.
+    pub fn has_cubic_terms(self) -> bool {
+        self.has_any(&[Parameter::K1Cubic, Parameter::K2Cubic])
+    }
+
+    /// Whether the ground may resist by a drag.
+    pub fn has_drag(self) -> bool {
+        let own = [Parameter::C1, Parameter::C2];
+        let of_sides = [
+            Parameter::C1Forward,
+            Parameter::C1Backward,
+            Parameter::C2Forward,
+            Parameter::C2Backward,
+        ];
+        self.law == Resistance::Medium || self.has_any(&own) || self.has_any(&of_sides)
+    }
+
+    /// Whether the resistance may differ by direction.
+    pub fn has_friction_by_direction(self) -> bool {
+        Parameter::ALL.iter().any(|it| it.leader() != *it && self.has(*it))
+    }
+
+    /// Whether there is no dry friction.
+    pub fn is_medium(self) -> bool {
+        self.law == Resistance::Medium
+    }
+
+    /// Whether a stop may damp.
+    pub fn has_damped_stops(self) -> bool {
+        self.has_any(&[Parameter::K2Damping, Parameter::K3Damping])
+    }
+
+    /// Why a parameter has no effect, as what follows "has no effect"; none where it has one.
+    pub fn no_effect(self, parameter: Parameter) -> Option<String> {
+        let of_friction = |why: &str| Some(format!("under the law `{}`: {why}", self.law.name()));
+        let of_drive = |kinds: &str| {
+            Some(format!("with the drive `{}`: it belongs to {kinds}", self.drive.name()))
+        };
+        match (parameter, self.law, self.drive) {
+            (
+                Parameter::MuS
+                | Parameter::MuD
+                | Parameter::Vs
+                | Parameter::MuSForward
+                | Parameter::MuSBackward
+                | Parameter::MuDForward
+                | Parameter::MuDBackward
+                | Parameter::Stribeck,
+                Resistance::Medium,
+                _,
+            ) => of_friction("a medium has no dry friction"),
+            (Parameter::Vs | Parameter::Stribeck, Resistance::Coulomb, _) => {
+                of_friction("friction under this law does not depend on speed")
+            }
+            (Parameter::Duty | Parameter::PLow, _, kind) if kind.edges() == 0 => {
+                of_drive("`square` and `trapezoid`")
+            }
+            (Parameter::Rise, _, kind) if kind != DriveKind::Trapezoid => of_drive("`trapezoid`"),
+            (Parameter::P2 | Parameter::Phase2, _, kind) if kind != DriveKind::TwoHarmonics => {
+                of_drive("`two-harmonics`")
+            }
+            (Parameter::P0, _, DriveKind::Harmonic) => {
+                of_drive("`square`, `trapezoid` and `two-harmonics`")
+            }
+            (Parameter::C1 | Parameter::C2, law, _)
+                if law != Resistance::Medium && !self.has(parameter) =>
+            {
+                of_friction("it is not given, and there is no drag beside friction")
+            }
+            (Parameter::Omega, _, _) if self.has(Parameter::Period) => {
+                Some("beside `period`, which tells the frequency".to_owned())
+            }
+            _ => None,
+        }
+    }
+
+    /// By which equations the capsule moves, its friction read so.
+    ///
+    /// A member of the family is given by its drive, its reaction, or a parameter beside those of the paper that has an effect.
+    pub fn form(self, switching: Switching) -> Form {
+        let is_part = |it: &Parameter| {
+            let in_paper =
+                self.law == Resistance::Medium && matches!(it, Parameter::C1 | Parameter::C2);
+            self.has(*it) && *it != Parameter::Period && !in_paper && self.no_effect(*it).is_none()
+        };
+        let is_general = self.drive != DriveKind::Harmonic
+            || self.reaction != Reaction::None
+            || Parameter::ALL.iter().any(is_part);
+        match switching {
+            Switching::AsPrinted => Form::AsPrinted,
+            Switching::Filippov if is_general => Form::General,
+            Switching::Filippov => Form::Filippov,
+        }
+    }
+}
