@@ -183,8 +183,8 @@ impl<L: Lane> Account<L> {
             let inner = open & !last;
             if inner.any() {
                 let t = L::from_plain(until);
-                let both = [drive.force, drive.rate].map(|it| values(it, t));
-                let product = integral_of_product(&both[0], &both[1], t);
+                let (force, rate) = (values(drive.force, t), values(drive.rate, t));
+                let product = integral_of_product(&force, &rate, t);
                 done = L::select(inner, drive.unit * product, done);
             }
             let part = done - before;

@@ -49,7 +49,7 @@ impl<L: Lane> Beside<L> {
     /// Adds the losses of a step of this length [s]; returns the largest force of the front stop in it [N].
     #[inline(always)]
     pub(super) fn see(&mut self, jet: &Jet<L>, parts: &Parts<L>, length: L) -> L {
-        let [y1, y2] = [&jet.y1, &jet.y2].map(|it| values(it, length));
+        let (y1, y2) = (values(&jet.y1, length), values(&jet.y2, length));
         let mut relative = y1;
         for (relative, y2) in relative.iter_mut().zip(&y2) {
             *relative = *relative - *y2;
@@ -58,9 +58,8 @@ impl<L: Lane> Beside<L> {
         self.contact_loss = self.contact_loss + damped;
         let dragged = integral_of_product(&values(&parts.drag, length), &y2, length);
         self.drag_loss = self.drag_loss + dragged;
-        let [front, rear] = [0, 1].map(|stop| peak(&parts.stops[stop], length));
-        self.rear_peak_force = self.rear_peak_force.max(rear);
-        front
+        self.rear_peak_force = self.rear_peak_force.max(peak(&parts.stops[1], length));
+        peak(&parts.stops[0], length)
     }
 }
 

@@ -106,12 +106,11 @@ impl Shape {
     /// That of a capsule with these parameters.
     pub fn of(parameters: &Parameters) -> Shape {
         let [law, _, drive, reaction] = [0, 1, 2, 3].map(|choice| parameters.chosen(choice));
-        let bit = |it: &Parameter| u64::from(parameters.is_given((*it).into())) << *it as u64;
         Shape {
             law: Resistance::NAMES[law].1,
             drive: DriveKind::NAMES[drive].1,
             reaction: Reaction::NAMES[reaction].1,
-            given: Parameter::ALL.iter().map(bit).sum(),
+            given: parameters.given_places(),
         }
     }
 

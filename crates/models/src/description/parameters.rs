@@ -85,6 +85,11 @@ impl Parameters {
         self.given >> place(self.model, parameter) & 1 != 0
     }
 
+    /// The places of those that the equations have only where they are given and that are, as bits.
+    pub fn given_places(&self) -> u64 {
+        self.given
+    }
+
     /// They where the equations have a parameter, as where it varies.
     pub fn with_part(mut self, parameter: Parameter) -> Parameters {
         let value = self[parameter];

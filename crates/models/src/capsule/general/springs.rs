@@ -128,9 +128,9 @@ impl<L: Lane> Springs<L> {
     #[inline(always)]
     pub fn slopes(&self, touched: &Touched<L>) -> (L, L) {
         let zero = L::splat(0.0);
-        let [front, rear] = [(touched.front, self.front), (touched.rear, self.rear)]
-            .map(|it| (L::select(it.0, it.1.stiffness, zero), L::select(it.0, it.1.damping, zero)));
-        (self.k1 + front.0 + rear.0, self.c + front.1 + rear.1)
+        let of_front = L::select(touched.front, self.front.stiffness, zero);
+        let of_rear = L::select(touched.rear, self.rear.stiffness, zero);
+        (self.k1 + of_front + of_rear, self.c + self.contact_damping(touched))
     }
 
     /// The damping of the stops that are touched [N s/m].

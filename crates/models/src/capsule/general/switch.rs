@@ -19,7 +19,7 @@ impl<L: Lane> GeneralCapsule<L> {
     /// The mode of a state at a time, which is moved onto rest where it rests.
     pub(super) fn mode_at(&self, time: L, state: &mut State<L>) -> GeneralMode<L> {
         let zero = L::splat(0.0);
-        let [front, rear] = [&self.springs.front, &self.springs.rear].map(|it| it.at);
+        let (front, rear) = (self.springs.front.at, self.springs.rear.at);
         let mut mode = GeneralMode {
             front: front.lt(state.r),
             rear: state.r.lt(rear) & L::Mask::splat(self.has_rear_stop),
