@@ -3,7 +3,8 @@
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{Machine, Outcome, Protocol};
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, Case, Orbit, Parameter, Parameters, Resistance, State, settle_all,
+    CapsuleParameters as _, Case, DriveKind, Orbit, Parameter, Parameters, Reaction, Resistance,
+    State, settle_all,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -58,9 +59,11 @@ pub fn wide(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
             (Parameter::MuD, random.or_least(0.0, 1.0)),
             (Parameter::M2, random.logarithmic(0.05, 3.0)),
             (Parameter::Vs, random.logarithmic(1e-4, 5.0)),
-            (Parameter::C1, random.logarithmic(1e-2, 10.0)),
-            (Parameter::C2, random.or_least(0.0, 30.0)),
         ]);
+        let drag = [random.logarithmic(1e-2, 10.0), random.or_least(0.0, 30.0)];
+        if law == Resistance::Medium {
+            (parameters[Parameter::C1], parameters[Parameter::C2]) = (drag[0], drag[1]);
+        }
         parameters.resist_by(law);
         let phase = random.uniform(0.0, 2.0 * std::f64::consts::PI);
         let rests = random.uniform(0.0, 1.0) < 0.25;
@@ -74,6 +77,95 @@ pub fn wide(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
         Case::at_section(parameters, start, phase)
     };
     (0..count).map(|_| draw()).collect()
+}
+
+/// Members of the family over the whole box that users may set, under one law of resistance: each key is given in some of them.
+pub fn members(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
+    let (mut shapes, mut values) = (Random::new(seed ^ 0x5ead), Random::new(seed ^ 0x7a1e));
+    let mut cases = wide(count, seed, law);
+    for case in &mut cases {
+        draw_member(&mut case.parameters, &mut shapes, &mut values);
+    }
+    cases
+}
+
+/// The same of one shape, which the seed decides.
+pub fn alike(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
+    let mut values = Random::new(seed ^ 0x7a1e);
+    let mut cases = wide(count, seed, law);
+    for case in &mut cases {
+        draw_member(&mut case.parameters, &mut Random::new(seed ^ 0x5ead), &mut values);
+    }
+    cases
+}
+
+/// Makes a capsule a member of the family: what its equations have from `shapes`, with what from `values`.
+fn draw_member(p: &mut Parameters, shapes: &mut Random, values: &mut Random) {
+    draw_drive(p, shapes, values);
+    draw_parts(p, shapes, values);
+}
+
+/// Draws how a member is driven.
+fn draw_drive(p: &mut Parameters, shapes: &mut Random, random: &mut Random) {
+    let (_, kind) = DriveKind::NAMES[shapes.uniform(0.0, 4.0) as usize];
+    p.drive_by(kind);
+    if shapes.uniform(0.0, 1.0) < 0.5 {
+        p.react_on(Reaction::Capsule);
+    }
+    let p_d = p[Parameter::Pd];
+    let duty = random.uniform(0.02, 0.98);
+    let rise = random.uniform(0.02, 0.98) * duty.min(1.0 - duty);
+    let all = [
+        (Parameter::Duty, duty),
+        (Parameter::Rise, rise),
+        (Parameter::PLow, random.uniform(-1.0, 0.5) * p_d),
+        (Parameter::P0, random.uniform(-0.3, 0.3) * p_d),
+        (Parameter::P2, random.uniform(-1.0, 1.0) * p_d),
+        (Parameter::Phase2, random.uniform(-10.0, 10.0)),
+    ];
+    for (parameter, value) in all {
+        if p.shape().no_effect(parameter).is_none() {
+            p[parameter] = value;
+        }
+    }
+    let period = p.drive_period() * random.uniform(0.5, 2.0);
+    if shapes.uniform(0.0, 1.0) < 0.3 {
+        p[Parameter::Period] = period;
+    }
+}
+
+/// Draws stops, springs and ground of a member; each part is there in a third of them.
+fn draw_parts(p: &mut Parameters, shapes: &mut Random, random: &mut Random) {
+    let load = p.normal_load();
+    let all: [(Parameter, f64); 20] = [
+        (Parameter::Incline, random.uniform(-0.6, 0.6)),
+        (Parameter::Load, random.uniform(-0.4, 0.4) * load),
+        (Parameter::PreloadGap, random.uniform(-2e-3, 2e-3)),
+        (Parameter::K3, random.logarithmic(1e2, 1e6)),
+        (Parameter::Delta3, random.or_least(0.0, 1e-2)),
+        (Parameter::K2Damping, random.logarithmic(1e-2, 30.0)),
+        (Parameter::K3Damping, random.logarithmic(1e-2, 30.0)),
+        (Parameter::K1Cubic, random.logarithmic(1e5, 1e8)),
+        (Parameter::K2Cubic, random.logarithmic(1e6, 1e9)),
+        (Parameter::MuSForward, random.or_least(0.0, 1.0)),
+        (Parameter::MuSBackward, random.or_least(0.0, 1.0)),
+        (Parameter::MuDForward, random.or_least(0.0, 1.0)),
+        (Parameter::MuDBackward, random.or_least(0.0, 1.0)),
+        (Parameter::Stribeck, random.or_least(0.0, 3.0)),
+        (Parameter::C1, random.logarithmic(1e-2, 10.0)),
+        (Parameter::C2, random.or_least(0.0, 30.0)),
+        (Parameter::C1Forward, random.logarithmic(1e-2, 10.0)),
+        (Parameter::C1Backward, random.logarithmic(1e-2, 10.0)),
+        (Parameter::C2Forward, random.or_least(0.0, 30.0)),
+        (Parameter::C2Backward, random.or_least(0.0, 30.0)),
+    ];
+    for (parameter, value) in all {
+        let is_there = shapes.uniform(0.0, 1.0) < 0.3;
+        let is_drag = matches!(parameter, Parameter::C1 | Parameter::C2);
+        if is_there && (is_drag || p.shape().no_effect(parameter).is_none()) {
+            p[parameter] = value;
+        }
+    }
 }
 
 /// Parameters and starts over the ranges in which the motion is rich.
@@ -97,6 +189,16 @@ pub fn cases(count: usize, seed: u64) -> Vec<Case> {
         Case::at_section(parameters, State { r, y1, x2: 0.0, y2 }, uniform(0.0, 6.0))
     };
     (0..count).map(|_| draw()).collect()
+}
+
+/// Members of the family over the ranges in which the motion is rich.
+pub fn rich_members(count: usize, seed: u64) -> Vec<Case> {
+    let (mut shapes, mut values) = (Random::new(seed ^ 0x5ead), Random::new(seed ^ 0x7a1e));
+    let mut cases = cases(count, seed);
+    for case in &mut cases {
+        draw_member(&mut case.parameters, &mut shapes, &mut values);
+    }
+    cases
 }
 
 /// What each case settles to, on one thread.

@@ -21,6 +21,7 @@ mod eigenvalues;
 mod elementary;
 mod examples;
 mod exponents;
+mod family;
 mod far_starts;
 mod forms;
 mod impact_orbits;

@@ -1,8 +1,12 @@
 //! A second method that shares no code with the series: extrapolation of Gragg's rule, events by bracketing.
 
+mod equations;
+
 use capsulemap_models::capsule::{
     CapsuleParameters as _, Parameter, Parameters, Resistance, State,
 };
+
+use equations::{Line, Second};
 
 /// r, y1, x2, y2.
 type Vector = [f64; 4];
@@ -16,21 +20,11 @@ const ROUNDING: f64 = 1e-11;
 /// Values below which a displacement [m] and a velocity [m/s] count as nothing.
 const LEAST: Vector = [1e-5, 1e-3, 1e-5, 1e-3];
 
-/// The capsule in Filippov's reading, one mode at a time.
-struct Second<'a> {
-    p: &'a Parameters,
-    phase: f64,
-    closed: bool,
-    /// Direction of sliding, 0 at rest.
-    slip: f64,
-    /// Largest values met, by which accuracy is judged.
-    scale: Vector,
-}
-
 /// What ends a step.
 #[derive(Clone, Copy, PartialEq)]
 enum Guard {
-    Contact,
+    /// The stop of this number.
+    Contact(usize),
     Speed,
     BreakAway(f64),
 }
@@ -38,12 +32,12 @@ enum Guard {
 /// The states at the ends of the first `cycles` drive cycles, as (r, y1, x2, y2).
 pub fn follow(p: &Parameters, phase: f64, start: State<f64>, cycles: u64) -> Vec<Vector> {
     let state = [start.r, start.y1, start.x2, start.y2];
-    let mut second =
-        Second { p, phase, closed: start.r > p[Parameter::Delta], slip: 0.0, scale: LEAST };
-    let force = second.force(&state);
+    let line = Line::default();
+    let mut second = Second { p, phase, touched: [false; 2], slip: 0.0, line, scale: LEAST };
+    second.touched = [0, 1].map(|stop| second.depth(stop, &state) > 0.0);
+    second.line = second.line_at(0.0, 0.0);
     second.slip = match start.y2 {
-        0.0 if force.abs() <= second.break_away() => 0.0,
-        0.0 => force.signum(),
+        0.0 => second.from_rest(0.0, &state),
         speed => speed.signum(),
     };
     let mut sections = vec![state];
@@ -55,56 +49,6 @@ pub fn follow(p: &Parameters, phase: f64, start: State<f64>, cycles: u64) -> Vec
 }
 
 impl Second<'_> {
-    fn of(&self, parameter: Parameter) -> f64 {
-        self.p[parameter]
-    }
-
-    fn load(&self) -> f64 {
-        (self.of(Parameter::M1) + self.of(Parameter::M2)) * self.of(Parameter::G)
-    }
-
-    fn break_away(&self) -> f64 {
-        let (mu_s, mu_d) = (self.of(Parameter::MuS), self.of(Parameter::MuD));
-        match self.p.resistance() {
-            Resistance::CoulombStribeck => mu_s.max(2.0 * mu_d) * self.load(),
-            Resistance::Coulomb => mu_s.max(mu_d) * self.load(),
-            Resistance::Medium => 0.0,
-        }
-    }
-
-    fn force(&self, &[r, y1, _, y2]: &Vector) -> f64 {
-        let contact = if self.closed {
-            self.of(Parameter::K2) * (r - self.of(Parameter::Delta))
-        } else {
-            0.0
-        };
-        self.of(Parameter::K1) * r + self.of(Parameter::C) * (y1 - y2) + contact
-    }
-
-    fn resistance(&self, y2: f64) -> f64 {
-        let dry = self.slip * self.of(Parameter::MuD) * self.load();
-        match self.p.resistance() {
-            Resistance::CoulombStribeck => {
-                dry * (1.0 + libm::exp(-(self.slip * y2) / self.of(Parameter::Vs)))
-            }
-            Resistance::Coulomb => dry,
-            Resistance::Medium => {
-                self.of(Parameter::C1) * y2 + self.of(Parameter::C2) * self.slip * y2 * y2
-            }
-        }
-    }
-
-    fn rates(&self, t: f64, state: &Vector) -> Vector {
-        let [_, y1, _, y2] = *state;
-        let force = self.force(state);
-        let drive = self.of(Parameter::Pd) * libm::cos(self.of(Parameter::Omega) * t + self.phase);
-        let acceleration = (drive - force) / self.of(Parameter::M1);
-        if self.slip == 0.0 {
-            return [y1, acceleration, 0.0, 0.0];
-        }
-        [y1 - y2, acceleration, y2, (force - self.resistance(y2)) / self.of(Parameter::M2)]
-    }
-
     /// The state after `h`, by Gragg's modified midpoint rule with 2, 4, 6, ... steps, extrapolated in the
     /// square of the step (Bulirsch and Stoer 1966); none where it does not converge.
     fn advanced(&self, t: f64, state: &Vector, h: f64) -> Option<Vector> {
@@ -141,42 +85,50 @@ impl Second<'_> {
     }
 
     /// The guards of the mode, and their values: positive while it lasts.
-    fn guards(&self, state: &Vector) -> Vec<(Guard, f64)> {
-        let gap = state[0] - self.of(Parameter::Delta);
-        let contact = (Guard::Contact, if self.closed { gap } else { -gap });
+    fn guards(&self, t: f64, state: &Vector) -> Vec<(Guard, f64)> {
+        let contact = |stop: usize| {
+            let depth = self.depth(stop, state);
+            (Guard::Contact(stop), if self.touched[stop] { depth } else { -depth })
+        };
+        let mut guards = vec![contact(0), contact(1)];
         if self.slip != 0.0 {
-            return vec![contact, (Guard::Speed, self.slip * state[3])];
+            guards.push((Guard::Speed, self.slip * state[3]));
+            return guards;
         }
-        let (limit, force) = (self.break_away(), self.force(state));
-        vec![
-            contact,
-            (Guard::BreakAway(1.0), limit - force),
-            (Guard::BreakAway(-1.0), limit + force),
-        ]
+        let push = self.push(t, state);
+        guards.push((Guard::BreakAway(1.0), self.break_away(1.0) - push));
+        guards.push((Guard::BreakAway(-1.0), self.break_away(-1.0) + push));
+        guards
     }
 
     fn rates_of_guards(&self, t: f64, state: &Vector) -> Vec<f64> {
-        let h = 1e-9 / self.of(Parameter::Omega);
+        let h = 1e-9 / self.omega();
         let ahead = moved(state, h, &self.rates(t, state));
-        let pairs = self.guards(&ahead).into_iter().zip(self.guards(state));
+        let pairs = self.guards(t + h, &ahead).into_iter().zip(self.guards(t, state));
         pairs.map(|((_, later), (_, now))| (later - now) / h).collect()
     }
 
     /// A step that resolves the springs, the drive and the layer of the friction.
     fn usual_step(&self, t: f64, state: &Vector) -> f64 {
         let [_, _, _, y2] = *state;
-        let stiffness =
-            self.of(Parameter::K1) + if self.closed { self.of(Parameter::K2) } else { 0.0 };
+        let far = 1e-2 + state[0].abs();
+        let cubic = self.part(Parameter::K1Cubic).abs() + self.part(Parameter::K2Cubic).abs();
+        let stiffness = self.of(Parameter::K1)
+            + if self.touched[0] { self.of(Parameter::K2) } else { 0.0 }
+            + if self.touched[1] { self.part(Parameter::K3) } else { 0.0 }
+            + 3.0 * cubic * far * far;
+        let damping = self.of(Parameter::C)
+            + self.part(Parameter::K2Damping)
+            + self.part(Parameter::K3Damping);
         let inverse_mass = 1.0 / self.of(Parameter::M1) + 1.0 / self.of(Parameter::M2);
-        let fastest = (stiffness * inverse_mass).sqrt()
-            + self.of(Parameter::C) * inverse_mass
-            + self.of(Parameter::Omega);
+        let fastest = (stiffness * inverse_mass).sqrt() + damping * inverse_mass + self.omega();
         let h = 0.2 / fastest;
         if self.slip == 0.0 || self.p.resistance() != Resistance::CoulombStribeck {
             return h;
         }
         let width = self.of(Parameter::Vs).max(0.2 * (y2.abs() - 40.0 * self.of(Parameter::Vs)));
-        let steepest = self.of(Parameter::MuD) * self.load() / self.of(Parameter::Vs);
+        let mu_d = self.mu_d(self.slip) * self.stribeck();
+        let steepest = mu_d * self.load() / self.of(Parameter::Vs);
         let growth =
             steepest * libm::exp(-y2.abs() / self.of(Parameter::Vs)) / self.of(Parameter::M2);
         let acceleration = self.rates(t, state)[3].abs() + 1e-3 * growth * self.of(Parameter::Vs);
@@ -185,15 +137,34 @@ impl Second<'_> {
 
     /// The state a drive cycle later.
     fn cycle(&mut self, mut state: Vector) -> Vector {
-        let period = self.p.drive_period();
-        let mut t = 0.0;
-        // The guard that has just ended a mode starts at zero.
-        let mut fired: Option<Guard> = None;
-        while t < period {
+        let mut from = 0.0;
+        for to in self.cuts() {
+            self.line = self.line_at(from, to);
+            // The force on a capsule at rest may have jumped.
+            let leaves = if self.slip == 0.0 { self.from_rest(from, &state) } else { 0.0 };
+            let mut fired = None;
+            if leaves != 0.0 {
+                (self.slip, fired) = (leaves, Some(Guard::Speed));
+            }
+            state = self.between_edges(from, to, state, fired);
+            from = to;
+        }
+        state
+    }
+
+    /// The state at the end of a part of a cycle without an edge of the drive; the guard that has `fired` starts at zero.
+    fn between_edges(
+        &mut self,
+        mut t: f64,
+        to: f64,
+        mut state: Vector,
+        mut fired: Option<Guard>,
+    ) -> Vector {
+        while t < to {
             for (scale, value) in self.scale.iter_mut().zip(state) {
                 *scale = scale.max(value.abs());
             }
-            let mut h = self.usual_step(t, &state).min(period - t);
+            let mut h = self.usual_step(t, &state).min(to - t);
             let (end, ends) = loop {
                 let Some(end) = self.advanced(t, &state, h) else {
                     h *= 0.5;
@@ -206,12 +177,12 @@ impl Second<'_> {
                 }
             };
             let Some(guard) = ends else {
-                (state, t, fired) = (end, if h >= period - t { period } else { t + h }, None);
+                (state, t, fired) = (end, if h >= to - t { to } else { t + h }, None);
                 continue;
             };
             let (root, at_root) = self.located(t, &state, h, guard);
             (state, t) = (at_root, t + root);
-            fired = self.switched(guard, &mut state);
+            fired = self.switched(guard, t, &mut state);
         }
         state
     }
@@ -227,7 +198,7 @@ impl Second<'_> {
         fired: Option<Guard>,
     ) -> Option<Option<Guard>> {
         let negative: Vec<Guard> = self
-            .guards(end)
+            .guards(t + h, end)
             .into_iter()
             .filter(|(_, value)| *value < 0.0)
             .map(|(guard, _)| guard)
@@ -238,19 +209,19 @@ impl Second<'_> {
         }
         let falling = self.rates_of_guards(t, state);
         let rising = self.rates_of_guards(t + h, end);
-        let turns = self.guards(state).into_iter().zip(falling.iter().zip(&rising)).any(
+        let turns = self.guards(t, state).into_iter().zip(falling.iter().zip(&rising)).any(
             |((guard, value), (before, after))| {
                 fired != Some(guard) && *before < 0.0 && *after > 0.0 && value + before * h < 0.0
             },
         );
-        if turns && h > 1e-9 / self.of(Parameter::Omega) { None } else { Some(None) }
+        if turns && h > 1e-9 / self.omega() { None } else { Some(None) }
     }
 
     /// When a guard that is below zero at the end of a step passes zero, and the state then.
     fn located(&self, t: f64, state: &Vector, h: f64, guard: Guard) -> (f64, Vector) {
         let value = |h: f64| {
             let state = self.advanced(t, state, h).expect("a shorter step converges");
-            let found = self.guards(&state).into_iter().find(|(known, _)| *known == guard);
+            let found = self.guards(t + h, &state).into_iter().find(|(known, _)| *known == guard);
             (found.expect("the mode lasts").1, state)
         };
         let (mut low, mut high) = (0.0, h);
@@ -277,12 +248,18 @@ impl Second<'_> {
     }
 
     /// Changes the mode, and puts the state on the surface that it begins on.
-    fn switched(&mut self, guard: Guard, state: &mut Vector) -> Option<Guard> {
+    fn switched(&mut self, guard: Guard, t: f64, state: &mut Vector) -> Option<Guard> {
         match guard {
-            Guard::Contact => {
-                self.closed = !self.closed;
-                state[0] = self.of(Parameter::Delta);
-                Some(Guard::Contact)
+            Guard::Contact(stop) => {
+                self.touched[stop] = !self.touched[stop];
+                let surfaces = [self.of(Parameter::Delta), -self.part(Parameter::Delta3)];
+                state[0] = surfaces[stop];
+                // The force of a stop that damps jumps.
+                let leaves = if self.slip == 0.0 { self.from_rest(t, state) } else { 0.0 };
+                if leaves != 0.0 {
+                    self.slip = leaves;
+                }
+                Some(guard)
             }
             Guard::BreakAway(side) => {
                 self.slip = side;
@@ -290,10 +267,8 @@ impl Second<'_> {
             }
             Guard::Speed => {
                 state[3] = 0.0;
-                let force = self.force(state);
-                let rests = force.abs() <= self.break_away();
-                self.slip = if rests { 0.0 } else { force.signum() };
-                (!rests).then_some(Guard::Speed)
+                self.slip = self.from_rest(t, state);
+                (self.slip != 0.0).then_some(Guard::Speed)
             }
         }
     }

@@ -1,6 +1,6 @@
 //! What makes the capsule a model.
 
-use capsulemap_engine::flow::Step;
+use capsulemap_engine::flow::{Step, System as _};
 use capsulemap_engine::lane::series;
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{OrbitOf, Outcome, Protocol};
@@ -105,6 +105,6 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
         cycles: Cycles,
         parameter: Parameter,
     ) -> Option<Sensitivity> {
-        sensitivity(self, section, cycles, parameter)
+        self.has(parameter).then(|| sensitivity(self, section, cycles, parameter))?
     }
 }

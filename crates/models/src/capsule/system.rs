@@ -16,7 +16,7 @@ use super::printed::PrintedCapsule;
 use super::regime::PrintedMode;
 use super::shape::Shape;
 use super::state::{EventKind, State};
-use crate::description::Parameters;
+use crate::description::{Parameters, Presence};
 
 /// A form of the equations, with a reading of the switching between stick and slip.
 pub trait Reading: Copy + Debug + PartialEq + Send + Sync + 'static {
@@ -136,6 +136,14 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
 
     fn system<L: Lane>(&self, of: impl Fn(Parameter) -> L) -> R::In<L> {
         R::capsule(of, self.parameters.shape(), self.phase)
+    }
+
+    /// Those of the paper, and those of the family that are given.
+    fn has(&self, parameter: Parameter) -> bool {
+        let shape = self.parameters.shape();
+        parameter.presence() == Presence::Always
+            || shape.has(parameter)
+            || (shape.is_medium() && parameter.presence() == Presence::Told)
     }
 
     fn value(&self, parameter: Parameter) -> f64 {

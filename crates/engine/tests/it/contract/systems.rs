@@ -2,8 +2,8 @@
 
 use capsulemap_engine::orbit::{Case, Outcome, Protocol, settle};
 use capsulemap_models::capsule::{
-    AsPrinted, CapsuleCase as _, CapsuleParameters as _, CapsuleSystem, Filippov, Parameter,
-    Parameters, Reading, Resistance, State,
+    self, AsPrinted, CapsuleCase as _, CapsuleParameters as _, CapsuleSystem, Filippov, General,
+    Parameter, Parameters, Reading, Resistance, State,
 };
 
 use super::super::directions::DIRECTIONS;
@@ -44,38 +44,114 @@ where
     (0..count).map(|_| case()).collect()
 }
 
-impl<R: Reading> Subject<3> for CapsuleSystem<R> {
-    fn directions() -> Vec<Parameter> {
+/// A form of the capsule with random cases of it.
+trait Drawn: Reading {
+    /// The parameters along which its map is differentiated.
+    fn along() -> Vec<Parameter>;
+    /// Random cases over the whole box of one law, all of them alike.
+    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<capsule::Case>;
+    /// Random cases over the part of the box where motions are rich.
+    fn rich(count: usize, seed: u64) -> Vec<capsule::Case>;
+
+    /// The size of the numbers that guard `which` is a small difference of.
+    fn terms(p: &Parameters, which: usize, state: &State<f64>) -> f64 {
+        let [r, y1, _, y2] = state.coordinates().map(f64::abs);
+        let depth = r + p[Parameter::Delta].abs();
+        if which == 0 {
+            return depth;
+        }
+        p[Parameter::K1] * r + p[Parameter::K2] * depth + p[Parameter::C] * (y1 + y2)
+    }
+}
+
+/// Those of capsules in which rest ends at the static limit in many cases.
+fn rich(count: usize, seed: u64) -> Vec<capsule::Case> {
+    let mut cases = draws::cases(count, seed);
+    for case in cases.iter_mut().step_by(2) {
+        case.parameters[Parameter::MuD] *= 0.5;
+    }
+    cases
+}
+
+impl Drawn for Filippov {
+    fn along() -> Vec<Parameter> {
         DIRECTIONS.to_vec()
+    }
+    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<capsule::Case> {
+        draws::wide(count, seed, law)
+    }
+    fn rich(count: usize, seed: u64) -> Vec<capsule::Case> {
+        rich(count, seed)
+    }
+}
+
+impl Drawn for AsPrinted {
+    fn along() -> Vec<Parameter> {
+        DIRECTIONS.to_vec()
+    }
+    /// As printed a capsule without static friction would switch at F = 0 without end.
+    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<capsule::Case> {
+        let sticks = |p: &Parameters| p.drag().static_limit > 0.0;
+        let cases = draws::wide(2 * count, seed, law).into_iter();
+        cases.filter(|case| law == Resistance::Medium || sticks(&case.parameters)).collect()
+    }
+    fn rich(count: usize, seed: u64) -> Vec<capsule::Case> {
+        rich(count, seed)
+    }
+}
+
+impl Drawn for General {
+    fn along() -> Vec<Parameter> {
+        Parameter::ALL.to_vec()
+    }
+    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<capsule::Case> {
+        draws::alike(count, seed, law)
+    }
+    fn rich(count: usize, seed: u64) -> Vec<capsule::Case> {
+        draws::rich_members(8 * count, seed)
+    }
+    /// The first guard is the time until an edge of the drive, the next two are those of the stops.
+    fn terms(p: &Parameters, which: usize, state: &State<f64>) -> f64 {
+        let [r, y1, _, y2] = state.coordinates().map(f64::abs);
+        let depths = [Parameter::Delta, Parameter::Delta3].map(|gap| r + p[gap].abs());
+        if which < 3 {
+            return [p.drive_period(), depths[0], depths[1]][which];
+        }
+        let given = |it: Parameter| if p.is_given(it.into()) { p[it].abs() } else { 0.0 };
+        let damping = p[Parameter::C] + given(Parameter::K2Damping) + given(Parameter::K3Damping);
+        let cubic =
+            given(Parameter::K1Cubic) * r.powi(3) + given(Parameter::K2Cubic) * depths[0].powi(3);
+        let drive = p[Parameter::Pd]
+            + [Parameter::P0, Parameter::PLow, Parameter::P2].map(given).iter().sum::<f64>();
+        p[Parameter::K1] * (r + given(Parameter::PreloadGap))
+            + p[Parameter::K2] * depths[0]
+            + given(Parameter::K3) * depths[1]
+            + damping * (y1 + y2)
+            + cubic
+            + drive
+            + given(Parameter::Load)
+            + p.normal_load()
+    }
+}
+
+impl<R: Drawn> Subject<3> for CapsuleSystem<R> {
+    fn directions() -> Vec<Parameter> {
+        R::along()
     }
 
     /// Every law of resistance has its turn.
     fn draws(count: usize, seed: u64) -> Vec<Case<Self, 3>> {
         let (_, law) = Resistance::NAMES[seed as usize % Resistance::NAMES.len()];
-        let cases = draws::wide(2 * count, seed, law).into_iter();
-        // As printed a capsule without static friction would switch at F = 0 without end.
-        let sticks = |p: &Parameters| p.drag().static_limit > 0.0;
-        let cases = cases.filter(|case| law == Resistance::Medium || sticks(&case.parameters));
+        let cases = R::wide(count, seed, law).into_iter();
         cases.take(count).map(|case| case.read()).collect()
     }
 
     fn rich_draws(count: usize, seed: u64) -> Vec<Case<Self, 3>> {
-        let mut cases = draws::cases(count, seed);
-        // So little dynamic friction that rest ends at the static limit in many cases.
-        for case in cases.iter_mut().step_by(2) {
-            case.parameters[Parameter::MuD] *= 0.5;
-        }
-        cases.iter().map(|case| case.read()).collect()
+        R::rich(count, seed).iter().map(|case| case.read()).collect()
     }
 
     fn terms(&self, which: usize, _mode: &R::Mode<f64>, state: &State<f64>) -> f64 {
-        let of = |parameter| self.parameters[parameter];
-        let [r, y1, _, y2] = state.coordinates().map(f64::abs);
-        if which == 0 {
-            return r + of(Parameter::Delta).abs();
-        }
-        let contact = of(Parameter::K2) * (r + of(Parameter::Delta).abs());
-        of(Parameter::K1) * r + contact + of(Parameter::C) * (y1 + y2)
+        R::terms(&self.parameters, which, state)
     }
 }
 
@@ -231,6 +307,7 @@ macro_rules! contract {
 contract! {
     capsule: CapsuleSystem<Filippov>, 3;
     capsule_as_printed: CapsuleSystem<AsPrinted>, 3;
+    family_of_capsules: CapsuleSystem<General>, 3;
     belt_oscillator: Belt<f64>, 1;
     impact_oscillator: Impact<f64>, 2;
     duffing_oscillator: Duffing<f64>, 2;

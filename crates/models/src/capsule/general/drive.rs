@@ -121,11 +121,11 @@ impl<L: Lane> PiecewiseDrive<L> {
         self.kind.edges() > 0
     }
 
-    /// How many edges have passed at a time within the cycle; one that is due there has not.
+    /// How many edges have passed at a time within the cycle, one there included.
     pub fn passed_at(&self, time: L) -> L {
         let mut passed = L::splat(0.0);
         for begins in &self.lines.begins[1..=self.kind.edges()] {
-            let is_over = begins.lt(time);
+            let is_over = begins.le(time);
             passed = passed + L::select(is_over, L::splat(1.0), L::splat(0.0));
         }
         passed
