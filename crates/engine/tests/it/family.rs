@@ -3,8 +3,7 @@
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{Outcome, Protocol};
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, CapsuleState as _, Case, Form, Output, Parameter, Resistance, State,
-    simulate,
+    CapsuleParameters as _, CapsuleState as _, Case, Form, Output, Resistance, State, simulate,
 };
 
 use super::draws;

@@ -2,9 +2,10 @@
 
 use capsulemap_engine::orbit::{Case, Outcome, Protocol, settle};
 use capsulemap_models::capsule::{
-    self, AsPrinted, CapsuleCase as _, CapsuleParameters as _, CapsuleSystem, Filippov, General,
+    AsPrinted, CapsuleCase as _, CapsuleParameters as _, CapsuleSystem, Filippov, General,
     Parameter, Parameters, Reading, Resistance, State,
 };
+use capsulemap_models::motion;
 
 use super::super::directions::DIRECTIONS;
 use super::super::draws::{self, Random};
@@ -49,9 +50,9 @@ trait Drawn: Reading {
     /// The parameters along which its map is differentiated.
     fn along() -> Vec<Parameter>;
     /// Random cases over the whole box of one law, all of them alike.
-    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<capsule::Case>;
+    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<motion::Case>;
     /// Random cases over the part of the box where motions are rich.
-    fn rich(count: usize, seed: u64) -> Vec<capsule::Case>;
+    fn rich(count: usize, seed: u64) -> Vec<motion::Case>;
 
     /// The size of the numbers that guard `which` is a small difference of.
     fn terms(p: &Parameters, which: usize, state: &State<f64>) -> f64 {
@@ -65,7 +66,7 @@ trait Drawn: Reading {
 }
 
 /// Those of capsules in which rest ends at the static limit in many cases.
-fn rich(count: usize, seed: u64) -> Vec<capsule::Case> {
+fn rich(count: usize, seed: u64) -> Vec<motion::Case> {
     let mut cases = draws::cases(count, seed);
     for case in cases.iter_mut().step_by(2) {
         case.parameters[Parameter::MuD] *= 0.5;
@@ -77,10 +78,10 @@ impl Drawn for Filippov {
     fn along() -> Vec<Parameter> {
         DIRECTIONS.to_vec()
     }
-    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<capsule::Case> {
+    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<motion::Case> {
         draws::wide(count, seed, law)
     }
-    fn rich(count: usize, seed: u64) -> Vec<capsule::Case> {
+    fn rich(count: usize, seed: u64) -> Vec<motion::Case> {
         rich(count, seed)
     }
 }
@@ -90,12 +91,12 @@ impl Drawn for AsPrinted {
         DIRECTIONS.to_vec()
     }
     /// As printed a capsule without static friction would switch at F = 0 without end.
-    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<capsule::Case> {
+    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<motion::Case> {
         let sticks = |p: &Parameters| p.drag().static_limit > 0.0;
         let cases = draws::wide(2 * count, seed, law).into_iter();
         cases.filter(|case| law == Resistance::Medium || sticks(&case.parameters)).collect()
     }
-    fn rich(count: usize, seed: u64) -> Vec<capsule::Case> {
+    fn rich(count: usize, seed: u64) -> Vec<motion::Case> {
         rich(count, seed)
     }
 }
@@ -104,10 +105,10 @@ impl Drawn for General {
     fn along() -> Vec<Parameter> {
         Parameter::ALL.to_vec()
     }
-    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<capsule::Case> {
+    fn wide(count: usize, seed: u64, law: Resistance) -> Vec<motion::Case> {
         draws::alike(count, seed, law)
     }
-    fn rich(count: usize, seed: u64) -> Vec<capsule::Case> {
+    fn rich(count: usize, seed: u64) -> Vec<motion::Case> {
         draws::rich_members(8 * count, seed)
     }
     /// The first guard is the time until an edge of the drive, the next two are those of the stops.
