@@ -220,7 +220,9 @@ impl Second<'_> {
     /// When a guard that is below zero at the end of a step passes zero, and the state then.
     fn located(&self, t: f64, state: &Vector, h: f64, guard: Guard) -> (f64, Vector) {
         let value = |h: f64| {
-            let state = self.advanced(t, state, h).expect("a shorter step converges");
+            let state = self.advanced(t, state, h).unwrap_or_else(|| {
+                panic!("a shorter step converges: {h:e} at {t} of {state:?}, slip {}, touched {:?}, {:?}", self.slip, self.touched, self.p)
+            });
             let found = self.guards(t + h, &state).into_iter().find(|(known, _)| *known == guard);
             (found.expect("the mode lasts").1, state)
         };

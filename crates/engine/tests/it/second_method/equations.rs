@@ -194,7 +194,8 @@ impl Second<'_> {
         let c2 =
             self.coefficient(side, [Parameter::C2Forward, Parameter::C2Backward, Parameter::C2]);
         let dry = side * self.mu_d(side) * self.load();
-        let drag = c1 * y2 + c2 * y2.abs() * y2;
+        // Written for the direction of the mode, so that it is smooth where y2 passes zero within a step.
+        let drag = c1 * y2 + c2 * side * y2 * y2;
         match self.p.resistance() {
             Resistance::CoulombStribeck => {
                 let rise = libm::exp(-(side * y2) / self.of(Parameter::Vs));
