@@ -165,9 +165,10 @@ fn coasting(law: Resistance, v_s: f64) -> Parameters {
         (Parameter::Pd, 0.0),
         (Parameter::Omega, 2.0 * PI),
         (Parameter::Vs, v_s),
-        (Parameter::C1, 0.4),
-        (Parameter::C2, 3.0),
     ]);
+    if law == Resistance::Medium {
+        (p[Parameter::C1], p[Parameter::C2]) = (0.4, 3.0);
+    }
     p.resist_by(law);
     p
 }

@@ -7,8 +7,8 @@ use capsulemap_engine::flow::{Event, Motion, Step, Switched};
 use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::Protocol;
 use capsulemap_models::capsule::{
-    self, AsPrinted, CapsuleParameters as _, CapsuleState as _, Case, EventKind, Filippov, Orbit,
-    Parameters, Reading, Simulation, State, Switching,
+    self, AsPrinted, CapsuleParameters as _, CapsuleState as _, Case, EventKind, Filippov, Form,
+    General, Orbit, Parameters, Reading, Simulation, State,
 };
 use capsulemap_models::model::CaseQueue;
 use capsulemap_models::of::model_of;
@@ -40,13 +40,10 @@ pub fn simulate_by(
     let events: Vec<_> = alone.events.iter().map(|event| (event.t.to_bits(), event.kind)).collect();
     let expected = (states, events);
     for instructions in instructions {
-        let others = match parameters.switching() {
-            Switching::Filippov => {
-                among_others::<Filippov>(*instructions, &case, cycles, tolerance)
-            }
-            Switching::AsPrinted => {
-                among_others::<AsPrinted>(*instructions, &case, cycles, tolerance)
-            }
+        let others = match parameters.form() {
+            Form::Filippov => among_others::<Filippov>(*instructions, &case, cycles, tolerance),
+            Form::AsPrinted => among_others::<AsPrinted>(*instructions, &case, cycles, tolerance),
+            Form::General => among_others::<General>(*instructions, &case, cycles, tolerance),
         };
         assert!(others == expected, "{} lanes, another motion: {case:?}", instructions.name());
     }

@@ -22,6 +22,7 @@ mod elementary;
 mod examples;
 mod exponents;
 mod family;
+mod family_values;
 mod far_starts;
 mod forms;
 mod impact_orbits;

@@ -4,6 +4,7 @@
 use super::forms::{simulate, simulate_by};
 use capsulemap_engine::lane::Instructions;
 use capsulemap_models::capsule::{Parameter, Parameters, State};
+use capsulemap_models::description::Presence;
 use serde_json::Value;
 
 fn number(value: &Value, key: &str) -> f64 {
@@ -86,7 +87,7 @@ fn every_reference_trajectory_over_the_wide_box_is_reproduced() {
         let of = |symbol| number(&case["parameters"], symbol);
         let mut parameters = Parameters::default();
         for &parameter in Parameter::ALL {
-            if !matches!(parameter, Parameter::C1 | Parameter::C2) {
+            if parameter.presence() == Presence::Always {
                 parameters[parameter] = of(parameter.symbol());
             }
         }

@@ -1,5 +1,6 @@
 //! Derivatives of the outputs of periodic orbits in every parameter, against differences of orbits that are closed anew.
 
+use capsulemap_engine::flow::System as _;
 use capsulemap_engine::lane::Dual;
 use capsulemap_engine::orbit::matrix::{less_identity, solve};
 use capsulemap_engine::orbit::return_map::{Cycles, jacobian, observed, returned, seeded};
@@ -70,8 +71,11 @@ fn compare<const N: usize>(wanted: [Output; N]) -> [usize; 2] {
         if wanted.iter().any(|it| !here[*it].is_finite()) {
             continue;
         }
-        let free: Vec<Parameter> =
-            Parameter::ALL.iter().copied().filter(|it| base[*it] != 0.0).collect();
+        let free: Vec<Parameter> = Parameter::ALL
+            .iter()
+            .copied()
+            .filter(|it| system.has(*it) && base[*it] != 0.0)
+            .collect();
         let relative = |parameter: Parameter| {
             let found = sensitivity(&system, &at, studies(period), parameter);
             let slopes = found.expect("an orbit goes on").slopes;

@@ -1,6 +1,10 @@
 //! The harmonic drive of the internal mass, p_d cos(omega t + phase).
 
-use capsulemap_engine::lane::{Lane, Series, elementary::sin_cos_of_a_turn, series, side_by_side};
+use capsulemap_engine::lane::{
+    Lane, Series,
+    elementary::{sin_cos, sin_cos_of_a_turn},
+    series, side_by_side,
+};
 
 use super::parameter::Parameter;
 use super::shape::Shape;
@@ -26,6 +30,12 @@ impl<L: Lane> Drive<L> {
         Drive { amplitude: of(Parameter::Pd), omega, sin_phase, cos_phase }
     }
 
+    /// A harmonic of this amplitude [N] and frequency [rad/s], started at any `phase` [rad].
+    pub fn harmonic(amplitude: L, omega: L, phase: L) -> Self {
+        let (sin_phase, cos_phase) = sin_cos(phase);
+        Drive { amplitude, omega, sin_phase, cos_phase }
+    }
+
     /// The period, 2 pi / omega [s].
     #[inline(always)]
     pub fn period(&self) -> L {
@@ -35,7 +45,18 @@ impl<L: Lane> Drive<L> {
     /// Writes the series of `cos(omega t + phase)` from `time` since the start of the drive's cycle [s].
     #[inline(always)]
     pub fn cos(&self, time: L, c: &mut Series<L>) {
-        let (sin, cos) = sin_cos_of_a_turn(self.omega * time);
+        self.write_cos(sin_cos_of_a_turn(self.omega * time), c);
+    }
+
+    /// The same of a harmonic that turns more than once in a cycle.
+    #[inline(always)]
+    pub fn any_cos(&self, time: L, c: &mut Series<L>) {
+        self.write_cos(sin_cos(self.omega * time), c);
+    }
+
+    /// Writes the series from where the harmonic has turned by an angle with this sine and cosine.
+    #[inline(always)]
+    fn write_cos(&self, (sin, cos): (L, L), c: &mut Series<L>) {
         let mut s = sin * self.cos_phase + cos * self.sin_phase;
         c[0] = cos * self.cos_phase - sin * self.sin_phase;
         for k in 0..series::ORDER {

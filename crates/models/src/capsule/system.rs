@@ -35,6 +35,12 @@ pub trait Reading: Copy + Debug + PartialEq + Send + Sync + 'static {
         > + Locomotion<L>
         + SideBySide<One = Self::Single>;
 
+    /// Whether capsules of these shapes may be followed side by side; those of the paper where they have one law of resistance, and
+    /// their frequency told in one way.
+    fn are_alike(one: Shape, other: Shape) -> bool {
+        let period = Parameter::Period;
+        one.law == other.law && one.has(period) == other.has(period)
+    }
     /// The capsule with these parameters, whose drive is at `phase` at the section [rad].
     fn single(parameters: &Parameters, phase: f64) -> Self::Single;
     /// The capsule with these parameters and of this shape, whose drive is at `phase` at the section [rad].
@@ -71,6 +77,10 @@ impl Reading for General {
     type Mode<L: Lane> = GeneralMode<L>;
     type Single = GeneralCapsule<f64>;
     type In<L: Lane> = GeneralCapsule<L>;
+
+    fn are_alike(one: Shape, other: Shape) -> bool {
+        one == other
+    }
 
     fn single(parameters: &Parameters, phase: f64) -> GeneralCapsule<f64> {
         GeneralCapsule::new(|parameter| parameters[parameter], parameters.shape(), phase)
@@ -168,9 +178,9 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
         parameter.allowed().admits(value)
     }
 
-    /// Lanes share one shape.
+    /// Lanes share one shape, as far as their equations know of it.
     fn is_alike(&self, other: &Self) -> bool {
-        self.parameters.shape() == other.parameters.shape()
+        R::are_alike(self.parameters.shape(), other.parameters.shape())
     }
 
     fn shares_all_but_parameters(&self, other: &Self) -> bool {

@@ -92,8 +92,8 @@ impl Parameters {
 
     /// They where the equations have a parameter, as where it varies.
     pub fn with_part(mut self, parameter: Parameter) -> Parameters {
-        let value = self[parameter];
-        self[parameter] = value;
+        // To be borrowed to be written to is to be given.
+        let _ = &mut self[parameter];
         self
     }
 

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use capsulemap_engine::lane::elementary::sin_cos;
 use capsulemap_engine::lane::{Lane, Mask, Series, series, side_by_side};
 
+use crate::capsule::drive::Drive;
 use crate::capsule::parameter::Parameter;
 use crate::capsule::parameters::CapsuleParameters as _;
 use crate::capsule::shape::{DriveKind, Shape};
@@ -31,17 +31,6 @@ struct Lines<L> {
 
 side_by_side!(Lines {} with { begins, from, rate });
 
-/// One harmonic of the force.
-#[derive(Debug, Clone, Copy)]
-pub struct Harmonic<L> {
-    amplitude: L,
-    omega: L,
-    sin_phase: L,
-    cos_phase: L,
-}
-
-side_by_side!(Harmonic { amplitude, omega, sin_phase, cos_phase });
-
 /// A drive whose force is a sum of two harmonics, or made of lines between edges.
 ///
 /// Assumes: no edge but the one at phase 0 is at the section; that one is due at the start of each cycle, so that no section depends
@@ -52,59 +41,26 @@ pub struct PiecewiseDrive<L: Lane> {
     /// Frequency [rad/s].
     pub omega: L,
     constant: L,
-    first: Harmonic<L>,
-    second: Harmonic<L>,
+    first: Drive<L>,
+    second: Drive<L>,
     lines: Lines<L>,
 }
 
 side_by_side!(PiecewiseDrive { omega, constant } with { first, second, lines } alike { kind });
-
-impl<L: Lane> Harmonic<L> {
-    /// The harmonic with this frequency, at `phase` at the section [rad].
-    fn new(amplitude: L, omega: L, phase: L) -> Self {
-        let (sin_phase, cos_phase) = sin_cos(phase);
-        Harmonic { amplitude, omega, sin_phase, cos_phase }
-    }
-
-    /// Adds its series from when it has `turned` by an angle since the section [rad].
-    #[inline(always)]
-    fn add(&self, turned: L, force: &mut Series<L>) {
-        let (sin, cos) = sin_cos(turned);
-        let mut s = self.amplitude * (sin * self.cos_phase + cos * self.sin_phase);
-        let mut c = self.amplitude * (cos * self.cos_phase - sin * self.sin_phase);
-        force[0] = force[0] + c;
-        for k in 0..series::ORDER {
-            let rate = self.omega.scaled(L::Plain::splat(series::INVERSE[k + 1]));
-            (c, s) = (-(rate * s), rate * c);
-            force[k + 1] = force[k + 1] + c;
-        }
-    }
-}
-
-impl Harmonic<f64> {
-    /// Its force, by a library's functions [N].
-    fn force(&self, time: f64) -> f64 {
-        let (sin, cos) = libm::sincos(self.omega * time);
-        self.amplitude * (cos * self.cos_phase - sin * self.sin_phase)
-    }
-}
 
 impl<L: Lane> PiecewiseDrive<L> {
     /// The drive of these parameters, at `phase` at the section [rad].
     pub fn new(of: impl Fn(Parameter) -> L, shape: Shape, phase: f64) -> Self {
         let (omega, zero) = (shape.frequency(&of), L::splat(0.0));
         let phase = reduced(phase);
-        let is_smooth = shape.drive.edges() == 0;
-        let amplitude = if is_smooth { of(Parameter::Pd) } else { zero };
         let has_second = shape.drive == DriveKind::TwoHarmonics;
-        let second = if has_second { of(Parameter::P2) } else { zero };
         let second_phase = L::splat(2.0 * phase) + of(Parameter::Phase2);
         PiecewiseDrive {
             kind: shape.drive,
             omega,
             constant: if has_second { of(Parameter::P0) } else { zero },
-            first: Harmonic::new(amplitude, omega, L::splat(phase)),
-            second: Harmonic::new(second, omega + omega, second_phase),
+            first: Drive::new(&of, shape, L::splat(phase)),
+            second: Drive::harmonic(of(Parameter::P2), omega + omega, second_phase),
             lines: lines(of, shape.drive, omega, phase),
         }
     }
@@ -176,11 +132,18 @@ impl<L: Lane> PiecewiseDrive<L> {
             (force[0], force[1]) = (from + rate * (time - begins), rate);
             return;
         }
-        force[0] = self.constant;
-        let turned = self.omega * time;
-        self.first.add(turned, force);
+        // As the paper's capsule has it, whose bits are so the same.
+        self.first.cos(time, force);
+        for term in force.iter_mut() {
+            *term = self.first.amplitude * *term;
+        }
         if self.kind == DriveKind::TwoHarmonics {
-            self.second.add(turned + turned, force);
+            let mut second = series::zero();
+            self.second.any_cos(time, &mut second);
+            force[0] = force[0] + self.constant;
+            for (term, second) in force.iter_mut().zip(&second) {
+                *term = *term + self.second.amplitude * *second;
+            }
         }
     }
 
@@ -200,7 +163,11 @@ impl PiecewiseDrive<f64> {
             let [begins, from, rate] = self.line(passed);
             return from + rate * (time - begins);
         }
-        self.constant + self.first.force(time) + self.second.force(time)
+        let second = match self.kind {
+            DriveKind::TwoHarmonics => self.second.force(time),
+            _ => 0.0,
+        };
+        self.constant + self.first.force(time) + second
     }
 }
 

@@ -37,14 +37,13 @@ pub struct GeneralCapsule<L: Lane> {
     pub(super) ground: Ground<L>,
     /// Whether the capsule takes up the reaction of the drive: rho = 1.
     pub(super) reacts: bool,
-    pub(super) has_rear_stop: bool,
     /// The mean force along the ground, forward positive [N].
     mean_force: L,
     /// The speed at which the capsule has run away in its direction; infinite where that force is held [m/s].
     runaway_speed: L,
 }
 
-side_by_side!(GeneralCapsule { inverse_m1, inverse_m2, mean_force, runaway_speed } with { drive, springs, ground } alike { reacts, has_rear_stop });
+side_by_side!(GeneralCapsule { inverse_m1, inverse_m2, mean_force, runaway_speed } with { drive, springs, ground } alike { reacts });
 
 impl<L: Lane> GeneralCapsule<L> {
     /// The capsule with these parameters, whose drive is at `phase` at the section [rad].
@@ -57,7 +56,6 @@ impl<L: Lane> GeneralCapsule<L> {
             springs: Springs::new(&of, shape),
             ground: Ground::new(&of, shape),
             reacts: shape.reaction == Reaction::Capsule,
-            has_rear_stop: shape.has_rear_stop(),
             mean_force: balance.mean,
             runaway_speed: balance.runaway_speed(&of, shape),
         }
@@ -266,7 +264,7 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
     fn watched(&self, which: usize, mode: &GeneralMode<L>) -> L::Mask {
         match which {
             EDGE => self.drive.has_next(mode.passed),
-            REAR => L::Mask::splat(self.has_rear_stop),
+            REAR => self.springs.has_rear(),
             BACKWARD => !mode.slides(),
             _ => L::Mask::splat(true),
         }
@@ -352,7 +350,7 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
     #[inline(always)]
     fn touching<'a>(&self, jet: &'a GeneralJet<L>) -> Option<(&'a Series<L>, [L; 2])> {
         let front = self.springs.front.at;
-        let rear = if self.has_rear_stop { self.springs.rear.at } else { front };
+        let rear = L::select(self.springs.has_rear(), self.springs.rear.at, front);
         Some((&jet.motion.r, [front, rear]))
     }
 }

@@ -89,7 +89,7 @@ impl<L: Lane> Locomotion<L> for GeneralCapsule<L> {
         }
         Some(Parts {
             stops: self.springs.stop_forces(&touched, [&jet.motion.r, &jet.relative]),
-            rear: if self.has_rear_stop { self.springs.rear.at } else { far },
+            rear: L::select(self.springs.has_rear(), self.springs.rear.at, far),
             damping: self.springs.contact_damping(&touched),
             drag,
         })

@@ -95,12 +95,20 @@ impl<L: Lane> Springs<L> {
         }
     }
 
+    /// Where there is a rear stop: one without stiffness and damping is none.
+    #[inline(always)]
+    pub fn has_rear(&self) -> L::Mask {
+        let zero = L::splat(0.0);
+        zero.lt(self.rear.stiffness) | zero.lt(self.rear.damping)
+    }
+
     /// The force of the mass on the capsule, F [N].
     #[inline(always)]
     pub fn force(&self, touched: &Touched<L>, state: &State<L>) -> L {
-        let relative = state.y1 - state.y2;
-        let own = self.k1 * state.r + self.preload + self.c * relative;
-        let force = own + self.of_front(touched, state) + self.of_rear(touched, state);
+        // In the order in which the paper's capsule has them, whose bits are so the same.
+        let of_stops = self.of_front(touched, state) + self.of_rear(touched, state);
+        let own = self.k1 * state.r + of_stops;
+        let force = own + self.c * (state.y1 - state.y2) + self.preload;
         if !self.has_cubic_terms {
             return force;
         }

@@ -1,7 +1,7 @@
 //! How the modes of the family follow each other.
 
 use capsulemap_engine::flow::{Event, Zeros};
-use capsulemap_engine::lane::{Lane, Mask};
+use capsulemap_engine::lane::Lane;
 
 use super::equations::{FORWARD, FRONT, GeneralCapsule};
 use super::state::GeneralMode;
@@ -22,7 +22,7 @@ impl<L: Lane> GeneralCapsule<L> {
         let (front, rear) = (self.springs.front.at, self.springs.rear.at);
         let mut mode = GeneralMode {
             front: front.lt(state.r),
-            rear: state.r.lt(rear) & L::Mask::splat(self.has_rear_stop),
+            rear: state.r.lt(rear) & self.springs.has_rear(),
             slip: zero,
             passed: self.drive.passed_at(time),
             thrown: zero,
