@@ -27,7 +27,7 @@ pub fn sources(name: &str, model: &'static Description) -> Vec<Entry> {
         None | Some(Source::Kept(_)) => Vec::new(),
         Some(Source::State(_)) => coordinates.collect(),
         Some(Source::Parameters(_)) => {
-            model.parameters().map(Entry::of_parameter).chain(coordinates).collect()
+            model.parameters().map(Entry::of_parameter).chain(histories(model)).collect()
         }
     }
 }
@@ -135,8 +135,8 @@ impl<'v, 'a> Motion<'v, 'a> {
         let Some(signal) = signal.filter(|it| !matches!(it.source, Source::Kept(_))) else {
             return self.kept(name);
         };
-        let histories = self.histories(model.coordinates.len())?;
         if let Source::State(value) = signal.source {
+            let histories = self.histories(model.coordinates.len())?;
             let states = (0..histories[0].len()).map(|place| model.state_of(&histories, place));
             return Ok(states.map(|state| value(&state)).collect());
         }
@@ -144,7 +144,7 @@ impl<'v, 'a> Motion<'v, 'a> {
         if let Some(why) = (signal.missing)(&parameters) {
             return Err(self.view.unfit(why));
         }
-        Ok(signal.values(&parameters, &histories))
+        Ok(signal.values(&parameters, &self.histories(usize::MAX)?))
     }
 
     /// What is kept of it: the first so many.

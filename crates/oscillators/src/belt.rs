@@ -65,7 +65,7 @@ pub static MASS_ON_BELT: Description = Description {
         signals: &[
             Signal::kept(DISPLACEMENT, SignalKind::Coordinate, 0),
             Signal::kept(VELOCITY, SignalKind::Coordinate, 1),
-            Signal::force(FRICTION, |parameters, state| {
+            Signal::force(FRICTION, |parameters, state, _| {
                 let [x, u] = [0, 1].map(|at| state.values()[at]);
                 let [c, a, s, v] = of_description(parameters);
                 let slip = u - v;

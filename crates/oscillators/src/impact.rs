@@ -86,7 +86,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
             Signal::kept(DISPLACEMENT, SignalKind::Coordinate, 0),
             Signal::kept(VELOCITY, SignalKind::Coordinate, 1),
             Signal::kept(FORCE, SignalKind::Force, 2),
-            Signal::force(SPRING_FORCE, |_, state| -state.values()[0]),
+            Signal::force(SPRING_FORCE, |_, state, _| -state.values()[0]),
         ],
         panels: &[DISPLACEMENT.name, VELOCITY.name],
         charts: &[

@@ -37,7 +37,7 @@ pub fn follow(p: &Parameters, phase: f64, start: State<f64>, cycles: u64) -> Vec
     second.touched = [0, 1].map(|stop| second.depth(stop, &state) > 0.0);
     second.line = second.line_at(0.0, 0.0);
     second.slip = match start.y2 {
-        0.0 => second.from_rest(0.0, &state),
+        0.0 => second.start_of_sliding(0.0, &state),
         speed => speed.signum(),
     };
     let mut sections = vec![state];
@@ -141,7 +141,7 @@ impl Second<'_> {
         for to in self.cuts() {
             self.line = self.line_at(from, to);
             // The force on a capsule at rest may have jumped.
-            let leaves = if self.slip == 0.0 { self.from_rest(from, &state) } else { 0.0 };
+            let leaves = if self.slip == 0.0 { self.start_of_sliding(from, &state) } else { 0.0 };
             let mut fired = None;
             if leaves != 0.0 {
                 (self.slip, fired) = (leaves, Some(Guard::Speed));
@@ -257,7 +257,7 @@ impl Second<'_> {
                 let surfaces = [self.of(Parameter::Delta), -self.part(Parameter::Delta3)];
                 state[0] = surfaces[stop];
                 // The force of a stop that damps jumps.
-                let leaves = if self.slip == 0.0 { self.from_rest(t, state) } else { 0.0 };
+                let leaves = if self.slip == 0.0 { self.start_of_sliding(t, state) } else { 0.0 };
                 if leaves != 0.0 {
                     self.slip = leaves;
                 }
@@ -269,7 +269,7 @@ impl Second<'_> {
             }
             Guard::Speed => {
                 state[3] = 0.0;
-                self.slip = self.from_rest(t, state);
+                self.slip = self.start_of_sliding(t, state);
                 (self.slip != 0.0).then_some(Guard::Speed)
             }
         }

@@ -58,12 +58,14 @@ quantities! {
         "displacement of the capsule";
     HISTORY_Y2 "history_y2" Velocity, shown("", "*y*_{2}", "m/s", 1.0),
         "velocity of the capsule";
-    HISTORY_DRIVE "history_drive" Force, shown("Drive", "*p*_{d} cos *ωt*", "N", 1.0),
+    HISTORY_DRIVE "history_drive" Force, words("Force of the drive", "N"),
         "force of the drive";
     HISTORY_X1 "history_x1" Length, shown("", "*x*_{1}", "mm", 1e3),
         "displacement of the mass";
     HISTORY_CONTACT "history_contact" Force, words("Contact force", "N"),
         "force of the stop on the mass";
+ HISTORY_REAR_CONTACT "history_rear_contact" Force, words("Force of the rear stop", "N"),
+        "force of the rear stop on the mass, forward positive";
     HISTORY_FRICTION "history_friction" Force, words("Friction", "N"),
         "force of the friction on the capsule, against its motion";
     VELOCITIES "velocities" Velocity, shown("", "*y*_{1}, *y*_{2}", "m/s", 1.0),

@@ -4,12 +4,14 @@ use super::forces::Forces;
 use super::output::Output;
 use super::parameters::CapsuleParameters as _;
 use super::quantities::{
-    HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_X1, HISTORY_X2,
-    HISTORY_Y1, HISTORY_Y2, IMPACT_PHASE, IMPACT_VELOCITY, IMPACT_Y1, IMPACT_Y2, RELATIVE_VELOCITY,
-    VELOCITIES,
+    HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_REAR_CONTACT, HISTORY_X1,
+    HISTORY_X2, HISTORY_Y1, HISTORY_Y2, IMPACT_PHASE, IMPACT_VELOCITY, IMPACT_Y1, IMPACT_Y2,
+    RELATIVE_VELOCITY, VELOCITIES,
 };
 use super::state::{CapsuleState as _, State};
-use crate::description::{Chart, MotionDescription, Signal, SignalGroup, SignalKind};
+use crate::description::{
+    self, Chart, MotionDescription, Parameters, Signal, SignalGroup, SignalKind,
+};
 use crate::quantity::Quantity;
 
 /// What is told of an impact.
@@ -33,17 +35,31 @@ const SIGNALS: &[Signal] = &[
         y1 - y2
     }),
     Signal::kept(HISTORY_DRIVE, SignalKind::Force, 4),
-    Signal::force(HISTORY_CONTACT, |parameters, it| Forces::of(parameters, &it.capsule()).contact),
+    Signal::force(HISTORY_CONTACT, |parameters, it, kept| forces(parameters, it, kept).contact),
     Signal {
         missing: |parameters| {
             let why = "the friction at rest is not that of the equation as printed";
             (!parameters.switching().balances_at_rest()).then_some(why)
         },
-        ..Signal::force(HISTORY_FRICTION, |parameters, it| {
-            Forces::of(parameters, &it.capsule()).friction
+        ..Signal::force(HISTORY_FRICTION, |parameters, it, kept| {
+            forces(parameters, it, kept).friction
+        })
+    },
+    Signal {
+        missing: |parameters| {
+            let has_rear_stop = parameters.shape().has_rear_stop();
+            (!has_rear_stop).then_some("the capsule has no rear stop")
+        },
+        ..Signal::force(HISTORY_REAR_CONTACT, |parameters, it, kept| {
+            forces(parameters, it, kept).rear_contact
         })
     },
 ];
+
+/// The forces in a state, with the force of the drive as the first that is kept beside its coordinates.
+fn forces(parameters: &Parameters, state: &description::State, kept: &[f64]) -> Forces {
+    Forces::of(parameters, &state.capsule(), kept[0])
+}
 
 /// What the capsule says of its motion over time.
 pub(super) const MOTION: MotionDescription = MotionDescription {
@@ -59,7 +75,12 @@ pub(super) const MOTION: MotionDescription = MotionDescription {
         Chart { title: "Velocity", signals: &[HISTORY_Y1.name, HISTORY_Y2.name] },
         Chart {
             title: "Force",
-            signals: &[HISTORY_DRIVE.name, HISTORY_CONTACT.name, HISTORY_FRICTION.name],
+            signals: &[
+                HISTORY_DRIVE.name,
+                HISTORY_CONTACT.name,
+                HISTORY_FRICTION.name,
+                HISTORY_REAR_CONTACT.name,
+            ],
         },
     ],
     portrait: Some([HISTORY_R.name, RELATIVE_VELOCITY.name]),

@@ -80,8 +80,8 @@ pub enum Source {
     Kept(usize),
     /// It follows from the state alone.
     State(fn(&State) -> f64),
-    /// It follows from the parameters and the state.
-    Parameters(fn(&Parameters, &State) -> f64),
+    /// It follows from the parameters, the state, and what is kept of a motion beside its coordinates.
+    Parameters(fn(&Parameters, &State, &[f64]) -> f64),
 }
 
 /// Signals that are shown together.
@@ -117,8 +117,11 @@ impl Signal {
         Signal { quantity, kind, source: Source::State(value), missing: |_| None }
     }
 
-    /// A force that follows from the parameters and the state.
-    pub const fn force(quantity: Quantity, value: fn(&Parameters, &State) -> f64) -> Signal {
+    /// A force that follows from the parameters, the state, and what is kept of a motion beside its coordinates.
+    pub const fn force(
+        quantity: Quantity,
+        value: fn(&Parameters, &State, &[f64]) -> f64,
+    ) -> Signal {
         let source = Source::Parameters(value);
         Signal { quantity, kind: SignalKind::Force, source, missing: |_| None }
     }
@@ -144,7 +147,14 @@ impl Signal {
         match self.source {
             Source::Kept(place) => histories[place].clone(),
             Source::State(value) => states.map(|state| value(&state)).collect(),
-            Source::Parameters(value) => states.map(|state| value(parameters, &state)).collect(),
+            Source::Parameters(value) => {
+                let beside = &histories[model.coordinates.len()..];
+                let at = |(place, state): (usize, State)| {
+                    let kept: Vec<f64> = beside.iter().map(|column| column[place]).collect();
+                    value(parameters, &state, &kept)
+                };
+                states.enumerate().map(at).collect()
+            }
         }
     }
 }

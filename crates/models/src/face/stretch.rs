@@ -129,13 +129,16 @@ impl<M: Face<D>, const D: usize> Following<'_, M, D> {
         });
     }
 
-    /// Adds the states at the event before, which has led to a state.
-    fn after_event(&mut self, after: M::State<f64>) {
+    /// Adds the states at the event before, which has led to a state, and to this of what depends on time alone.
+    fn after_event(&mut self, after: M::State<f64>, driven_after: &[f64]) {
         let Some(Pending { time, before, mode, event, driven }) = self.pending.take() else {
             return;
         };
         for state in self.system.at_event(self.single, &mode, event, [before, after]) {
             self.stretch.push(time, &state, &driven);
+        }
+        if event.is_timed() {
+            self.stretch.push(time, &M::told(&after), driven_after);
         }
     }
 }
@@ -176,7 +179,8 @@ pub fn arc<M: Face<D>, const D: usize>(
     // What depends on time alone, at the end.
     let mut driven = Vec::new();
     trajectory.cycle(|step| {
-        following.after_event(single.at(&step.jet, 0.0));
+        let begins_driven = system.driven(&single, step, 0.0);
+        following.after_event(single.at(&step.jet, 0.0), &begins_driven);
         if next == 0 {
             following.stretch.push(0.0, &case.start, &system.driven(&single, step, 0.0));
             next = 1;
@@ -189,7 +193,7 @@ pub fn arc<M: Face<D>, const D: usize>(
         following.note_event(step);
         driven = system.driven(&single, step, step.length);
     })?;
-    following.after_event(trajectory.state());
+    following.after_event(trajectory.state(), &driven);
     following.stretch.push(duration, &M::told(&trajectory.state()), &driven);
     Ok(following.stretch)
 }

@@ -92,8 +92,9 @@ fn a_parameter_of_one_model_is_none_of_another() {
 fn what_is_said_to_have_no_effect_has_none() {
     let speeds = [-1.3, -1e-3, 2e-4, 0.7];
     let felt = |parameters: &Parameters| {
-        let sliding = speeds
-            .map(|y2| Forces::of(parameters, &State { r: 0.01, y1: 0.2, x2: 0.0, y2 }).friction);
+        let sliding = speeds.map(|y2| {
+            Forces::of(parameters, &State { r: 0.01, y1: 0.2, x2: 0.0, y2 }, 0.0).friction
+        });
         (parameters.break_away(), sliding)
     };
     let mut idle = 0;

@@ -181,7 +181,7 @@ impl Second<'_> {
     }
 
     /// The direction in which a capsule at rest starts to slide, 0 where it rests on.
-    pub(super) fn from_rest(&self, t: f64, state: &Vector) -> f64 {
+    pub(super) fn start_of_sliding(&self, t: f64, state: &Vector) -> f64 {
         let push = self.push(t, state);
         let holds = -self.break_away(-1.0) <= push && push <= self.break_away(1.0);
         if holds { 0.0 } else { push.signum() }

@@ -12,5 +12,5 @@ mod switch;
 pub use drive::{PiecewiseDrive, edge_at};
 pub use equations::GeneralCapsule;
 pub use ground::Ground;
-pub use springs::Springs;
+pub use springs::{Springs, Touched};
 pub use state::{GeneralJet, GeneralMode};
