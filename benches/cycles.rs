@@ -10,7 +10,7 @@ mod lanes;
 use std::hint::black_box;
 use std::time::Instant;
 
-use capsulemap::capsule::Parameters;
+use capsulemap::capsule::{CapsuleParameters as _, DriveKind, Parameter, Parameters};
 use capsulemap::lane::Instructions;
 use cases::{TOLERANCE, case_sets, integrate};
 use lanes::CYCLES;
@@ -20,7 +20,7 @@ const REPETITIONS: usize = 5;
 fn main() {
     println!("| cases | steps/cycle | instructions | cycles/s | min .. max | times scalar |");
     println!("|---|---:|---|---:|---:|---:|");
-    for (name, cases) in case_sets() {
+    for (name, cases) in case_sets().into_iter().chain(member_sets()) {
         let mut speeds: Vec<(Instructions, Vec<f64>)> =
             Instructions::available().map(|it| (it, Vec::new())).collect();
         let mut steps_per_cycle = 0.0;
@@ -57,4 +57,41 @@ fn measure(instructions: Instructions, cases: &[Parameters]) -> (f64, f64) {
     let cycles = (cases.len() as u64 * CYCLES) as f64;
     let steps: u64 = ends.iter().map(|end| end.steps).sum();
     (steps as f64 / cycles, cycles / seconds)
+}
+
+/// Members of the family by name, each the grid with a part more; the harmonic one has a part that changes nothing.
+fn member_sets() -> Vec<(&'static str, Vec<Parameters>)> {
+    let [.., (_, grid)] = case_sets();
+    let with = |change: &dyn Fn(&mut Parameters)| {
+        let mut cases = grid.clone();
+        cases.iter_mut().for_each(change);
+        cases
+    };
+    vec![
+        ("grid, as a member", with(&|p| p[Parameter::Load] = 0.0)),
+        ("grid, square wave", with(&|p| p.drive_by(DriveKind::Square))),
+        (
+            "grid, two harmonics",
+            with(&|p| {
+                p.drive_by(DriveKind::TwoHarmonics);
+                p[Parameter::P2] = 0.5;
+            }),
+        ),
+        (
+            "grid, rear stop and preload",
+            with(&|p| {
+                p[Parameter::K3] = 53_500.0;
+                p[Parameter::Delta3] = 0.002;
+                p[Parameter::PreloadGap] = 0.0002;
+            }),
+        ),
+        (
+            "grid, friction by direction and drag",
+            with(&|p| {
+                p[Parameter::MuDBackward] = 0.4;
+                p[Parameter::C1] = 0.5;
+            }),
+        ),
+        ("grid, cubic spring", with(&|p| p[Parameter::K1Cubic] = 1e7)),
+    ]
 }

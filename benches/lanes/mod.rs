@@ -1,6 +1,10 @@
 //! Cases that are integrated side by side, and nothing else.
 
-use capsulemap::capsule::{Capsule, CapsuleParameters, Parameters, State};
+use std::marker::PhantomData;
+
+use capsulemap::capsule::{
+    AsPrinted, CapsuleParameters, Filippov, Form, General, Parameters, Reading, State,
+};
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
@@ -25,27 +29,44 @@ pub fn integrate_from(
     cycles: u64,
     tolerance: f64,
 ) -> Vec<End> {
-    let ends = instructions.run(Integrate { cases, cycles, tolerance });
+    let form = cases.first().map_or(Form::Filippov, |(case, _)| case.form());
+    let ends = match form {
+        Form::Filippov => integrate_as::<Filippov>(instructions, cases, cycles, tolerance),
+        Form::AsPrinted => integrate_as::<AsPrinted>(instructions, cases, cycles, tolerance),
+        Form::General => integrate_as::<General>(instructions, cases, cycles, tolerance),
+    };
     let is_sound = |end: &End| end.state.y1.is_finite() && end.events <= end.steps;
     assert!(ends.iter().all(is_sound), "motions are finite, and every event ends a step");
     ends
 }
 
-struct Integrate<'a> {
+/// The same of cases of one form.
+fn integrate_as<R: Reading>(
+    instructions: Instructions,
+    cases: &[(Parameters, State<f64>)],
+    cycles: u64,
+    tolerance: f64,
+) -> Vec<End> {
+    instructions.run(Integrate::<R> { cases, cycles, tolerance, form: PhantomData })
+}
+
+struct Integrate<'a, R> {
     cases: &'a [(Parameters, State<f64>)],
     cycles: u64,
     tolerance: f64,
+    form: PhantomData<R>,
 }
 
-impl Work for Integrate<'_> {
+impl<R: Reading> Work for Integrate<'_, R> {
     type Output = Vec<End>;
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Vec<End> {
         let Some((first, _)) = self.cases.first() else { return Vec::new() };
-        let one = Capsule::single(first, 0.0);
-        let mut system = Capsule::<L>::splat(&one);
-        let mut motion = Motion::<L, Capsule<L>>::splat(&Motion::new(&one, 0.0, State::default()));
+        let one = R::single(first, 0.0);
+        let mut system = <R::In<L> as SideBySide>::splat(&one);
+        let begun = Motion::new(&one, 0.0, State::default());
+        let mut motion = Motion::<L, R::In<L>>::splat(&begun);
         let mut periods = L::splat(first.drive_period());
         let (mut steps, mut events) = (L::splat(0.0), L::splat(0.0));
         let mut case_of_lane: Vec<Option<usize>> = vec![None; L::WIDTH];
@@ -69,7 +90,7 @@ impl Work for Integrate<'_> {
                     ends[done] = End { state: motion.state.lane(lane), steps, events };
                 }
                 if let Some((case, start)) = self.cases.get(next) {
-                    let one = Capsule::single(case, 0.0);
+                    let one = R::single(case, 0.0);
                     system.put(lane, &one);
                     motion.put(lane, &Motion::new(&one, 0.0, *start));
                     periods = periods.with_lane(lane, case.drive_period());

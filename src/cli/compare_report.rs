@@ -50,8 +50,8 @@ pub fn told_of(it: &Comparison) -> String {
 
 /// The recorded drive beside that of the study, with what may be wrong.
 fn told_of_drive(it: &Comparison, drive: &Drive) -> String {
-    let [omega_of_study, p_d] =
-        [Parameter::Omega, Parameter::Pd].map(|parameter| it.motion.parameters[parameter]);
+    let parameters = &it.motion.parameters;
+    let (omega_of_study, p_d) = (parameters.frequency(), parameters[Parameter::Pd]);
     let harmonic = &drive.harmonic;
     let [omega, phase, amplitude] = [harmonic.omega, harmonic.phase, harmonic.amplitude]
         .map(|it| shown(it.value, it.standard_error));

@@ -11,7 +11,7 @@ use super::identify_report::shown;
 use super::synthesize::case_of;
 use super::terminal::print;
 use super::varied::{Varied, threads, varied};
-use crate::capsule::{CapsuleParameters as _, Parameter};
+use crate::capsule::CapsuleParameters as _;
 use crate::experiment::comparison::signals_of;
 use crate::experiment::course::varies;
 use crate::experiment::identification::parameter_file;
@@ -145,7 +145,7 @@ impl Fit {
         })?;
         let drive = harmonic(&times, drive).map_err(|why| Failure::of_file(path, why))?;
         let span = self.cycles as f64 * period;
-        let omega = case.parameters[Parameter::Omega];
+        let omega = case.parameters.frequency();
         let warnings = warnings_of_record(path, &sampling, &drive, omega, span)?;
         let count = times.partition_point(|time| *time <= span);
         let signals =

@@ -7,7 +7,7 @@ use super::noise::noise;
 use super::recording::median;
 use super::smoothing::smoothed;
 use crate::capsule::sampled::{Direction, Signal, Started};
-use crate::capsule::{Parameter, State};
+use crate::capsule::{CapsuleParameters as _, Parameter, State};
 use crate::description::Parameters;
 
 /// Velocities of the capsule at the first sample that are tried: how many, of either sign where it is not measured.
@@ -179,7 +179,7 @@ fn speeds_up_to(largest: f64) -> Vec<f64> {
 fn fastest(recorded: &Recorded) -> f64 {
     let parameters = &recorded.parameters;
     let mass = parameters[Parameter::M1] + parameters[Parameter::M2];
-    let by_drive = parameters[Parameter::Pd] / (mass * parameters[Parameter::Omega]);
+    let by_drive = parameters[Parameter::Pd] / (mass * parameters.frequency());
     let r = recorded.signals.iter().find(|it| it.0 == Signal::R).map(|it| it.1.as_slice());
     let rates = r.and_then(|r| smoothed(&recorded.times, r, first_window(r.len()), 1).ok());
     let relative = rates.map_or(0.0, |it| {

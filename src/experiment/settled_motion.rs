@@ -3,7 +3,7 @@
 use super::estimate::Estimate;
 use super::progression::Progression;
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{self, CapsuleState as _, Parameter, State, settle_case};
+use crate::capsule::{self, CapsuleParameters as _, CapsuleState as _, State, settle_case};
 use crate::description::Outputs;
 use crate::model::{Batches, Setting};
 use crate::motion::{Case, Orbit, reduced};
@@ -62,7 +62,7 @@ impl Settled {
         let parameters = self.case.parameters.clone();
         let start = State { x2: 0.0, ..self.orbit.end.capsule() };
         let section = Started { parameters, start, phase: self.case.section_phase };
-        let turned = reduced(phase - section.phase) / section.parameters[Parameter::Omega];
+        let turned = reduced(phase - section.phase) / section.parameters.frequency();
         let signals = [Signal::R, Signal::Y1, Signal::Y2];
         let found = sampled(&section, &[turned], &signals, &[], TOLERANCE)
             .map_err(|why| format!("the simulation cannot be followed: {why:?}"))?;

@@ -205,6 +205,9 @@ fn edges<L: Lane>(of: impl Fn(Parameter) -> L, kind: DriveKind) -> [Edge<L>; MOS
     let low = of(Parameter::P0) + of(Parameter::PLow);
     let edge = |at, from, rate| Edge { at, from, rate };
     if kind == DriveKind::Trapezoid {
+        // Edges that do not fit into the period make no drive: the case fails.
+        let fits = rise.le(duty) & (duty + rise).le(L::splat(1.0));
+        let low = L::select(fits, low, L::splat(f64::NAN));
         let rate = (high - low) / rise;
         return [
             edge(zero, low, rate),
