@@ -54,6 +54,7 @@ mod killed_calls;
 mod margins;
 mod mean_errors;
 mod measured_points;
+mod members;
 mod motion_fits;
 mod mutants;
 mod numbers;

@@ -1,0 +1,142 @@
+//! The family of capsules in studies and on the command line: what is told, what is refused, and that files hold what is computed again.
+
+use capsulemap::capsule::{CapsuleParameters as _, Form, Output, Parameter};
+use capsulemap::study::Study;
+
+use super::program::{FIG5, WorkDir};
+
+/// A member on a slope, over the incline and the duty.
+const OVER_INCLINE_AND_DUTY: &str = r#"
+[parameters]
+k2 = "2.42 kN/m"
+delta = "3.5 mm"
+p_d = "6 N"
+p_low = "-6 N"
+period = "80 ms"
+drive = "square"
+[[axes]]
+name = "incline"
+from = "-5 deg"
+to = "5 deg"
+points = 5
+[[axes]]
+name = "duty"
+from = 0.3
+to = 0.7
+points = 5
+[protocol]
+max_cycles = 300
+exponent_cycles = 64
+points = 2
+impact_points = 0
+[[branches]]
+name = "b"
+along = "duty"
+at = { incline = "0 deg", duty = 0.5 }
+from = 0.45
+to = 0.55
+"#;
+
+#[test]
+fn cases_of_members_come_out_the_same_from_their_file() {
+    let dir = WorkDir::new();
+    dir.put("member.toml", OVER_INCLINE_AND_DUTY);
+    let swept = dir.run(&["sweep", "member.toml", "--output", "m.h5", "--threads", "1"]).done();
+    assert!(swept.out.contains("25 cases"), "{}", swept.out);
+    let verified = dir.run(&["verify", "m.h5", "--cases", "25"]).done();
+    assert!(verified.out.contains("came out the same"), "{}", verified.out);
+    let continued = dir.run(&["continue", "member.toml", "--output", "m.h5"]).done();
+    assert!(continued.out.contains("period 1"), "{}", continued.out);
+    // A case alone is that of the file, on even ground, too, where its incline is zero.
+    let study = Study::parse("member.toml", OVER_INCLINE_AND_DUTY).expect("a study");
+    for case in [0, 12, 24] {
+        let parameters = study.case(case).parameters;
+        assert_eq!(parameters.form(), Form::General);
+        let told = dir.run(&["simulate", "--study", "m.h5", "--case", &case.to_string(), "--json"]);
+        assert_eq!(told.json()["parameters"]["drive"], "square");
+    }
+}
+
+#[test]
+fn only_members_tell_of_what_the_family_has() {
+    let plain = Study::parse("fig5.toml", FIG5).expect("a study");
+    let member = Study::parse("m.toml", &format!("{FIG5}incline = \"2 deg\"")).expect("a study");
+    let optional = |study: &Study| study.outputs.iter().filter(|it| it.is_optional()).count();
+    assert_eq!((optional(&plain), optional(&member)), (0, 6));
+    assert_ne!(plain.fingerprint(), member.fingerprint());
+
+    let dir = WorkDir::new();
+    let plain = dir.run(&["simulate"]).done().out;
+    assert!(!plain.contains("family") && !plain.contains("lifting_work"), "{plain}");
+    let member = ["simulate", "--drive", "trapezoid", "--drive-reaction", "capsule"];
+    let member =
+        dir.run(&[&member[..], &["--set", "k3=20 kN/m", "--set", "c1=0.2"]].concat()).done().out;
+    for part in [
+        "member of the family: trapezoid drive, its reaction on the capsule, a rear stop, drag beside friction",
+        "rear_impacts_per_cycle",
+        Output::DragLoss.name(),
+    ] {
+        assert!(member.contains(part), "{part:?} is missing from:\n{member}");
+    }
+}
+
+#[test]
+fn a_study_of_a_member_is_read_as_it_is_written() {
+    let study = Study::parse("member.toml", OVER_INCLINE_AND_DUTY).expect("a study");
+    let again = study.clone().validated("again.toml").expect("it is the same study");
+    assert_eq!(study.fingerprint(), again.fingerprint());
+    assert_eq!(again.base[Parameter::Period], 0.08);
+    assert!(!again.base.is_given(Parameter::Omega.into()));
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_the_reason() {
+    let dir = WorkDir::new();
+    let refused = |text: &str, parts: &[&str]| {
+        dir.put("no.toml", format!("{FIG5}{text}"));
+        dir.run(&["sweep", "no.toml", "--dry-run"]).refused(parts);
+    };
+    refused(
+        "drive = \"trapezoid\"\nduty = 0.2\nrise = 0.3\n",
+        &["no.toml", "rise", "no longer than the pulse"],
+    );
+    refused(
+        "drive = \"trapezoid\"\nrise = 0.3\n[[axes]]\nname = \"duty\"\nfrom = 0.2\nto = 0.6\npoints = 5\n",
+        &["rise", "no longer than the pulse"],
+    );
+    refused(
+        "drive = \"square\"\nduty = 0.25\n[start]\nsection_phase = \"90 deg\"\n",
+        &["lies on the edge of the drive at 0.25 of its period"],
+    );
+    refused("drive = \"square\"\nfriction_switching = \"as-printed\"\n", &["as-printed", "family"]);
+    refused("period = \"80 ms\"\n", &["omega", "beside period"]);
+    refused("drive = \"sqare\"\n", &["drive", "square", "trapezoid"]);
+    refused("duty = 1.0\ndrive = \"square\"\n", &["duty", "above 0 and below 1"]);
+    dir.run(&["simulate", "--drive", "trapezoid", "--set", "rise=0.6"]).refused(&["rise = 0.6"]);
+}
+
+#[test]
+fn what_has_no_effect_or_runs_away_is_told_before_it_is_computed() {
+    let dir = WorkDir::new();
+    let told = |text: &str, parts: &[&str]| {
+        dir.put("note.toml", format!("{FIG5}{text}"));
+        let ran = dir.run(&["sweep", "note.toml", "--dry-run"]).done();
+        for part in parts {
+            assert!(ran.err.contains(part), "{part:?} is missing from:\n{}", ran.err);
+        }
+    };
+    told(
+        "[[axes]]\nname = \"duty\"\nfrom = 0.2\nto = 0.6\npoints = 5\n",
+        &["duty has no effect with the drive `harmonic`", "all its values give the same motion"],
+    );
+    told(
+        "drive = \"square\"\nduty = 0.9\n",
+        &[
+            "the mean force along the ground, 3.6000 N, exceeds the friction of sliding, 2.0719 N",
+            "`runaway`",
+        ],
+    );
+    // So it does.
+    let ran = dir.run(&["simulate", "--drive", "square", "--set", "duty=0.9"]).done().out;
+    assert!(ran.contains("nothing holds the mean force"), "{ran}");
+}
