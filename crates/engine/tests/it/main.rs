@@ -35,6 +35,7 @@ mod observers;
 mod oscillators;
 mod paper;
 mod passages;
+mod random_branches;
 mod reference;
 mod rigid_branches;
 mod rigid_curves;

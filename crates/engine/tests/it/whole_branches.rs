@@ -2,15 +2,11 @@
 //! of the orbit that it begins from.
 
 use capsulemap_engine::branch::{self, End, SpecialKind};
-use capsulemap_engine::orbit::{Outcome, Protocol};
+use capsulemap_engine::orbit::Protocol;
 use capsulemap_models::capsule::branch::{Request, follow};
-use capsulemap_models::capsule::{
-    CapsuleParameters as _, CapsuleState as _, Case, Parameter, Parameters, Resistance, State,
-    settle, settle_case,
-};
-use rayon::prelude::*;
+use capsulemap_models::capsule::{CapsuleParameters as _, Parameter, Parameters, State, settle};
 
-use super::draws::{self, Random};
+use super::random_branches::numbered;
 use super::rigid_branches::impact_oscillator::Impactor;
 use capsulemap_models::motion::Setting;
 
@@ -171,66 +167,6 @@ fn a_rigid_branch_is_one_from_each_point_of_its_orbit() {
     }
 }
 
-/// Capsules of the wide box that are drawn.
-const CAPSULES: usize = 12;
-/// Two special points are one if their values are so near, relative to the range.
-const SAME: f64 = 1e-7;
-
-/// The special points of the branch through an orbit, each with its kind, period and value, and the intervals of the parameter
-/// in which something is unresolved; none where no branch is found or one has more points than are asked for.
-struct Shown {
-    special: Vec<(SpecialKind, f64)>,
-    unresolved: Vec<[f64; 2]>,
-    ends: [End; 2],
-}
-
-fn shown(request: &Request) -> Option<Shown> {
-    let branch = follow(request).ok()?.branches.swap_remove(0);
-    if branch.ends.contains(&End::MostPoints) {
-        return None;
-    }
-    let (mut special, mut unresolved) = (Vec::new(), Vec::new());
-    for it in &branch.special {
-        if it.kind == SpecialKind::Unresolved {
-            let ends = [it.after, (it.after + 1).min(branch.points.len() - 1)];
-            let [a, b] = ends.map(|at| branch.points[at].parameter);
-            unresolved.push([a.min(b), a.max(b)]);
-        } else {
-            special.push((it.kind, it.point.parameter));
-        }
-    }
-    Some(Shown { special, unresolved, ends: branch.ends })
-}
-
-impl Shown {
-    /// Those that another one does not have, where nothing is unresolved in either.
-    fn missing_in(&self, other: &Shown, width: f64) -> Vec<(SpecialKind, f64)> {
-        let near = SAME * width;
-        let mut left = other.special.clone();
-        let is_known = |value: f64| {
-            let mut all = self.unresolved.iter().chain(&other.unresolved);
-            all.all(|[low, high]| !(low - near..=high + near).contains(&value))
-        };
-        let mut missing = self.special.clone();
-        missing.retain(|(kind, value)| {
-            let found = left.iter().position(|it| it.0 == *kind && (it.1 - value).abs() <= near);
-            found.map(|at| left.swap_remove(at)).is_none() && is_known(*value)
-        });
-        missing
-    }
-}
-
-/// A capsule of the wide box by its number, the parameter that its branch goes along, and how far, as a share.
-fn numbered(number: usize) -> (Parameters, Parameter, f64) {
-    let along = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta, Parameter::C];
-    let seed = 7000 + number as u64;
-    let case = match number % 2 {
-        0 => draws::cases(1, seed).remove(0),
-        _ => draws::wide(1, seed, Resistance::NAMES[number / 2 % 3].1).remove(0),
-    };
-    (case.parameters, along[number % along.len()], Random::new(seed).uniform(0.05, 0.5))
-}
-
 /// Between two gaps one contact begins and another ceases, so that a step over both has the same events at its ends. The
 /// values are those at which the distances of the two extrema, printed along the branch at a step of .0005, pass zero.
 #[test]
@@ -247,103 +183,4 @@ fn two_grazings_are_seen_that_undo_each_other_in_the_events() {
             assert_eq!(all.iter().filter(is).count(), 1, "{longest_step} {value}: {all:?}");
         }
     }
-}
-
-#[test]
-fn random_branches_are_the_same_by_any_settings() {
-    let capsules = std::env::var("CAPSULES").map_or(CAPSULES, |it| it.parse().expect("a number"));
-    let drawn = (0..).map(|number: usize| (number, numbered(number)));
-    let periodic = drawn.filter_map(|(number, (parameters, along, share))| {
-        let orbit = settle(&parameters, 0.0, State::default(), &Protocol::default());
-        let is_short = orbit.outcome == Outcome::Periodic && orbit.period <= 4;
-        (is_short && parameters[along] > 0.0).then_some((number, parameters, along, share, orbit))
-    });
-    let chosen: Vec<_> = periodic.take(capsules).collect();
-    let compared = chosen.into_par_iter().map(|(number, parameters, along, share, settled)| {
-        let (low, high) = (parameters[along] * (1.0 - share), parameters[along] * (1.0 + share));
-        let request = |phase: f64, point: usize| {
-            // The same orbit, of which other starts may not lead to.
-            let start = State { x2: 0.0, ..settled.end.capsule() };
-            let case = Case {
-                start: start.into(),
-                section_phase: phase,
-                ..Case::at_section(parameters.clone(), start, 0.0)
-            };
-            let orbit = settle_case(&case, &Protocol::default());
-            Request {
-                setting: Setting { parameters: parameters.clone(), phase },
-                section: orbit.section[point % orbit.section.len()],
-                period: orbit.period,
-                along: along.into(),
-                range: [low, high],
-                doublings: 0,
-                second: None,
-                longest_step: 0.02,
-                most_points: 2000,
-                tolerance: 1e-12,
-            }
-        };
-        let usual = request(0.0, 0);
-        let mut others: Vec<(String, Request)> = Vec::new();
-        for longest_step in [0.005, 0.05, 0.1, 0.2] {
-            others
-                .push((format!("step {longest_step}"), Request { longest_step, ..usual.clone() }));
-        }
-        for phase in [1.0, 2.0, 3.0, 4.0, 5.0] {
-            others.push((format!("phase {phase}"), request(phase, 0)));
-        }
-        for point in 1..usual.period as usize {
-            others.push((format!("point {point}"), request(0.0, point)));
-        }
-        let first = shown(&usual)?;
-        let width = high - low;
-        let mut told = Vec::new();
-        let (mut pairs, mut unresolved) = (0, first.unresolved.len());
-        for (name, other) in &others {
-            let Some(other) = shown(other) else { continue };
-            pairs += 1;
-            unresolved += other.unresolved.len();
-            let (more, less) = (other.missing_in(&first, width), first.missing_in(&other, width));
-            if !more.is_empty() || !less.is_empty() {
-                told.push(format!(
-                    "{name}: more {more:?} less {less:?} ends {:?} {:?}",
-                    first.ends, other.ends
-                ));
-            }
-        }
-        // A wider range may have more, as the branch comes back into the narrower one.
-        for factor in [1.1, 1.3, 1.5, 2.0] {
-            let wide = Request { range: [low, low + factor * width], ..usual.clone() };
-            let Some(other) = shown(&wide) else { continue };
-            pairs += 1;
-            unresolved += other.unresolved.len();
-            let less = first.missing_in(&other, width);
-            if !less.is_empty() {
-                told.push(format!(
-                    "end {factor}: less {less:?} ends {:?} {:?}",
-                    first.ends, other.ends
-                ));
-            }
-        }
-        let about =
-            format!("capsule {number} along {along:?} in {:?}, {parameters:?}", usual.range);
-        Some((first.special.len(), pairs, unresolved, about, told))
-    });
-    let compared: Vec<_> = compared.collect();
-    let known: Vec<_> = compared.iter().flatten().collect();
-    let special: usize = known.iter().map(|it| it.0).sum();
-    let pairs: usize = known.iter().map(|it| it.1).sum();
-    let unresolved: usize = known.iter().map(|it| it.2).sum();
-    println!(
-        "{} branches with {special} special points, {pairs} comparisons, {unresolved} unresolved",
-        known.len()
-    );
-    let wrong: Vec<_> = known.iter().filter(|it| !it.4.is_empty()).collect();
-    for it in &wrong {
-        println!("{}", it.3);
-        it.4.iter().for_each(|told| println!("    {told}"));
-    }
-    // Long branches of hardly damped capsules may stop at another orbit that is too steep to be followed.
-    assert!(wrong.len() * 40 <= known.len(), "{} of {} branches", wrong.len(), known.len());
-    assert!(known.len() >= capsules / 2 && pairs > 5 * known.len(), "{pairs}");
 }
