@@ -50,10 +50,6 @@ fn read_values(
         let on_axis = varies(varied, parameter);
         match table.and_then(|table| table.entry(parameter.symbol())) {
             Some(entry) if on_axis => entry.fault("is given here and on an axis"),
-            Some(entry) if stands_in(parameter) => {
-                let symbol = period.map_or("", Parameter::symbol);
-                entry.fault(format!("is given beside {symbol}, which stands for it"));
-            }
             Some(entry) => {
                 let value = entry.allowed_quantity(parameter.dimension(), parameter.allowed());
                 parameters[parameter] = value.unwrap_or(parameters[parameter]);

@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use capsulemap::capsule::description::CAPSULE;
 use capsulemap::capsule::{
-    CapsuleParameters as _, Parameter, Parameters, Resistance, State, Switching,
+    CapsuleParameters as _, DriveKind, Parameter, Parameters, Reaction, Resistance, State,
+    Switching,
 };
+use capsulemap::description::Presence;
 use capsulemap::orbit::{HistorySpan, Protocol};
 use capsulemap::quantity::Allowed;
 use capsulemap::study::{
@@ -190,13 +192,23 @@ impl Random {
         let has_branches = self.is_so();
         let mut study = Study { title: self.text(&[]), case_set, ..Study::default() };
         for &parameter in Parameter::ALL {
-            if !varied.contains(&Coordinate::Parameter(parameter.into())) {
+            let is_there = parameter.presence() != Presence::Optional || self.is_so();
+            if is_there && !varied.contains(&Coordinate::Parameter(parameter.into())) {
                 study.base[parameter] = self.number(parameter.allowed());
             }
         }
         study.base.resist_by(self.one(&Resistance::NAMES).1);
         if !has_branches {
             study.base.switch_by(self.one(&Switching::NAMES).1);
+        }
+        if study.base.switching() == Switching::Filippov {
+            // Edges of any length do not fit into any period.
+            let kinds = [DriveKind::Harmonic, DriveKind::Square, DriveKind::TwoHarmonics];
+            study.base.drive_by(self.one(&kinds));
+            study.base.react_on(self.one(&Reaction::NAMES).1);
+        }
+        if study.with_parts().have_optional_parts() {
+            study.base.switch_by(Switching::Filippov);
         }
         let state = self.state();
         let unless =

@@ -168,7 +168,7 @@ fn half_a_turn_of_the_second_harmonic_turns_the_motion_round() {
 
 /// A member and its mirror image: stops, directions of the ground and signs of all forces exchanged.
 #[test]
-fn the_mirror_image_moves_the_other_way_to_the_bit() {
+fn the_mirror_image_moves_to_the_other_side_to_the_bit() {
     let mut random = Random::new(77);
     let mut compared = 0;
     while compared < 40 {

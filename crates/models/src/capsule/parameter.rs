@@ -60,7 +60,7 @@ parameters! {
     G "g" Acceleration NonNegative 9.81 "acceleration of gravity";
     C1 "c1" Damping NonNegative 0.0 "linear drag of the medium";
     C2 "c2" QuadraticDamping NonNegative 0.0 "quadratic drag of the medium";
-    Period "period" Time Positive 1.0 "period of the drive, in place of its frequency";
+    Period "drive_period" Time Positive 1.0 "period of the drive, in place of its frequency";
     P0 "p_0" Force Finite 0.0 "constant part of the drive";
     PLow "p_low" Force Finite 0.0 "force of the drive outside its pulse";
     Duty "duty" Number Share 0.5 "share of the period that a pulse lasts";

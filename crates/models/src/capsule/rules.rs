@@ -34,7 +34,7 @@ fn runaway(parameters: &Parameters) -> Option<Remark> {
         return None;
     }
     let balance = Balance::of(parameters);
-    let Balance { mean, sliding, .. } = balance;
+    let Balance { mean, sliding, break_away, .. } = balance;
     let about = described(&[
         Parameter::Pd,
         Parameter::P0,
@@ -46,10 +46,18 @@ fn runaway(parameters: &Parameters) -> Option<Remark> {
         Parameter::MuDForward,
         Parameter::MuDBackward,
     ]);
-    let text = format!(
-        "the mean force along the ground, {mean:.4} N, exceeds the friction of sliding, {sliding:.4} N: a capsule that slides on \
-         accelerates for ever, and its case fails as `runaway`"
+    let exceeds = format!(
+        "the mean force along the ground, {mean:.4} N, exceeds the friction of fast sliding, {sliding:.4} N"
     );
+    let text = match mean.abs() > break_away {
+        true => format!(
+            "{exceeds}, and what holds the capsule at rest: it accelerates for ever, and its case fails as `runaway`"
+        ),
+        false => format!(
+            "{exceeds}, though not the force at which rest ends, {break_away:.4} N: a capsule that gets fast accelerates for ever, and its \
+             case fails as `runaway`"
+        ),
+    };
     (!balance.holds()).then_some(Remark { about, text })
 }
 
@@ -61,7 +69,7 @@ fn conflicts(parameters: &Parameters, phase: f64) -> Vec<Remark> {
 
 /// That the equation as printed has no other members.
 fn as_printed(parameters: &Parameters) -> Option<Remark> {
-    let is_member = parameters.shape().form(Switching::Filippov) == Form::General;
+    let is_member = parameters.shape().is_member();
     let is_printed = parameters.switching() == Switching::AsPrinted;
     let text = "the reading `as-printed` knows a harmonic drive, one stop and even ground alone; the family of capsules has the reading `filippov`";
     let about = parameters.stated().map(|(it, _)| it).filter(|it| parameters.is_given(*it));

@@ -212,10 +212,21 @@ impl Shape {
                 of_friction("it is not given, and there is no drag beside friction")
             }
             (Parameter::Omega, _, _) if self.has(Parameter::Period) => {
-                Some("beside `period`, which tells the frequency".to_owned())
+                Some("beside `drive_period`, which tells the frequency".to_owned())
             }
             _ => None,
         }
+    }
+
+    /// It without the keys that were there before the family.
+    fn without_drag(self) -> Shape {
+        let places = 1 << Parameter::C1 as u64 | 1 << Parameter::C2 as u64;
+        Shape { given: self.given & !places, ..self }
+    }
+
+    /// Whether the equations have anything that the paper's have not, in any reading of its switching.
+    pub fn is_member(self) -> bool {
+        self.without_drag().form(Switching::Filippov) == Form::General
     }
 
     /// By which equations the capsule moves, its friction read so.

@@ -7,7 +7,6 @@ use capsulemap_engine::lane::Lane;
 use super::drive::mean_and_largest;
 use super::ground::Ground;
 use crate::capsule::parameter::Parameter;
-use crate::capsule::parameters::CapsuleParameters as _;
 use crate::capsule::shape::{Reaction, Shape};
 use crate::description::Parameters;
 
@@ -32,7 +31,7 @@ pub struct Balance<L> {
 impl Balance<f64> {
     /// That of a capsule.
     pub fn of(parameters: &Parameters) -> Self {
-        Balance::new(|it| parameters[it], parameters.shape())
+        Balance::new(|it| parameters[it], Shape::of(parameters))
     }
 
     /// Whether friction holds the mean force while the capsule slides.

@@ -6,7 +6,6 @@ use capsulemap_engine::lane::{Lane, Mask, Series, series, side_by_side};
 
 use crate::capsule::drive::Drive;
 use crate::capsule::parameter::Parameter;
-use crate::capsule::parameters::CapsuleParameters as _;
 use crate::capsule::shape::{DriveKind, Shape};
 use crate::description::Parameters;
 use crate::motion::reduced;
@@ -222,7 +221,7 @@ fn edges<L: Lane>(of: impl Fn(Parameter) -> L, kind: DriveKind) -> [Edge<L>; MOS
 /// The edge of a drive that lies at a phase [rad], as a share of the period from phase 0 on; none where there is none, or the one at
 /// phase 0, which no parameter moves.
 pub fn edge_at(parameters: &Parameters, phase: f64) -> Option<f64> {
-    let kind = parameters.shape().drive;
+    let kind = Shape::of(parameters).drive;
     let edges = edges(|it| parameters[it], kind);
     let section = reduced(phase) / (2.0 * PI);
     let later = edges.iter().take(kind.edges()).skip(1);
