@@ -153,7 +153,7 @@ fn what_can_be_set_of_figures_is_in_the_catalogue_with_its_dimension() {
 }
 
 /// Studies that together have all that a file of results can hold.
-const STUDIES: [&str; 6] = [
+const STUDIES: [&str; 7] = [
     r#"
 [parameters]
 m2 = "0.2 kg"
@@ -266,6 +266,46 @@ to = "22 rad/s"
 points = 2
 [map]
 refine = { progression_speed = "1 mm/s", work_positive = "1 mJ" }
+"#,
+    r#"
+[parameters]
+k2 = "2.42 kN/m"
+delta = "3.5 mm"
+p_d = "4 N"
+drive = "trapezoid"
+drive_period = "80 ms"
+p_0 = "0.1 N"
+p_low = "-2 N"
+duty = 0.4
+rise = 0.1
+p_2 = "0 N"
+phase_2 = "0 rad"
+incline = "1 deg"
+load = "0.01 N"
+preload_gap = "0.1 mm"
+k3 = "20 kN/m"
+delta_3 = "4 mm"
+k2_damping = "0.1 N s/m"
+k3_damping = "0.1 N s/m"
+k1_cubic = "1e5 N/m3"
+k2_cubic = "1e6 N/m3"
+mu_s_forward = 0.6
+mu_s_backward = 0.7
+mu_d_forward = 0.3
+mu_d_backward = 0.35
+stribeck = 0.9
+c1_forward = "0.1 N s/m"
+c1_backward = "0.2 N s/m"
+c2_forward = "0.1 N s2/m2"
+c2_backward = "0.2 N s2/m2"
+[protocol]
+points = 1
+impact_points = 0
+[[branches]]
+name = "b"
+along = "delta_3"
+from = "3.9 mm"
+to = "4.1 mm"
 "#,
 ];
 

@@ -102,7 +102,7 @@ fn every_key_of_the_contract_is_there() {
     ] {
         assert!(section.iter().all(|sample| sample[key].is_number()), "{key}");
     }
-    for output in Output::ALL {
+    for output in Output::ALL.iter().filter(|it| !it.is_optional()) {
         assert!(ran["orbit"][output.name()].is_number(), "{}", output.name());
     }
     for key in ["outcome", "period", "energy_residual", "momentum_residual", "grazing_margin"] {
@@ -191,7 +191,7 @@ fn plain_numbers_are_in_si_and_every_parameter_can_be_set() {
 fn the_orbit_is_that_of_the_library_bit_for_bit() {
     let ran = simulate(&["--cycles", "0"]).done();
     let orbit = settle(&Parameters::default(), 0.0, State::default(), &Protocol::default());
-    for &output in Output::ALL {
+    for &output in Output::ALL.iter().filter(|it| !it.is_optional()) {
         let printed = ran.printed(output.name());
         assert_eq!(printed.to_bits(), orbit.outputs[output].to_bits(), "{}", output.name());
     }

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use super::program::of_the_paper;
 use capsulemap::campaign::Tolerances;
 use capsulemap::capsule::{CapsuleParameters as _, Output, Parameter, Parameters, State, settle};
 use capsulemap::orbit::Protocol;
@@ -94,7 +95,7 @@ fn draws_are_counted_that_keep_conditions_and_budget() {
     let mut has_both = [false; 2];
     for point in answer["front"].as_array().expect("a front") {
         let value = |it: &Parameter| (*it, number(&point["parameters"], it.symbol()));
-        let values: Vec<(Parameter, f64)> = Parameter::ALL.iter().map(value).collect();
+        let values: Vec<(Parameter, f64)> = of_the_paper().map(value).collect();
         let parameters = Parameters::with(&values);
         let rest = State { r: 0.0, y1: 0.0, x2: 0.0, y2: 0.0 };
         let begun = settle(&parameters, 0.0, rest, &Protocol::default()).end;

@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use capsulemap::capsule::Parameter;
+use capsulemap::description::Presence;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -48,6 +50,11 @@ at = { omega = "20.73 rad/s" }
 from = "19 rad/s"
 to = "28 rad/s"
 "#;
+
+/// The parameters that every capsule has.
+pub fn of_the_paper() -> impl Iterator<Item = &'static Parameter> {
+    Parameter::ALL.iter().filter(|it| it.presence() == Presence::Always)
+}
 
 /// An empty folder to run the program in.
 pub struct WorkDir {

@@ -1,5 +1,6 @@
 //! `capsulemap tradeoff --refine`: motions between the cases, against brute force around them and the same search begun otherwise.
 
+use super::program::of_the_paper;
 use capsulemap::capsule::{CapsuleParameters as _, Output, Parameter, Parameters, State, settle};
 use capsulemap::description::Outputs;
 use capsulemap::orbit::{Outcome, Protocol};
@@ -30,7 +31,7 @@ fn number(point: &Value, key: &str) -> f64 {
 /// The parameters of a point, and where its motion starts.
 fn motion(point: &Value) -> (Parameters, State<f64>) {
     let value = |it: &Parameter| (*it, number(&point["parameters"], it.symbol()));
-    let values: Vec<(Parameter, f64)> = Parameter::ALL.iter().map(value).collect();
+    let values: Vec<(Parameter, f64)> = of_the_paper().map(value).collect();
     let start = |key: &str| number(&point["start"], key);
     let state =
         State { r: start("start_r"), y1: start("start_y1"), x2: 0.0, y2: start("start_y2") };

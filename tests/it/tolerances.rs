@@ -1,5 +1,6 @@
 //! `capsulemap tradeoff --tolerances`: against the derivatives of the motion, against brute force, and what is refused.
 
+use super::program::of_the_paper;
 use capsulemap::campaign::Tolerances;
 use capsulemap::capsule::{
     CapsuleParameters as _, CapsuleState as _, Output, Parameter, Parameters, State, settle,
@@ -76,7 +77,7 @@ fn what_is_told_of_large_tolerances_is_that_of_the_draws_and_the_same_on_any_num
     let answer = told.json();
     let fastest = &answer["fastest"];
     let value = |it: &Parameter| (*it, number(&fastest["parameters"], it.symbol()));
-    let parameters = Parameters::with(&Parameter::ALL.iter().map(value).collect::<Vec<_>>());
+    let parameters = Parameters::with(&of_the_paper().map(value).collect::<Vec<_>>());
     let orbit = settle(&parameters, 0.0, State::default(), &Protocol::default());
     let [r, y1, y2] = [orbit.end.capsule().r, orbit.end.capsule().y1, orbit.end.capsule().y2];
     let each = vec![(Parameter::K2.into(), 0.2), (Parameter::Omega.into(), 0.03)];
