@@ -37,7 +37,7 @@ impl Refinement<'_> {
         let Some(points) = model.section_points(&setting, *section, *period, tolerance) else {
             return Vec::new();
         };
-        let each = parameters.each().filter(|(_, value)| *value > 0.0);
+        let each = parameters.stated().filter(|(_, value)| *value > 0.0);
         let bounded = each.map(|(parameter, value)| Bounded {
             along: Along { setting: setting.clone(), parameter, tolerance },
             value,

@@ -295,7 +295,7 @@ impl Refinement<'_> {
         at: &OperatingPoint,
         period: u64,
     ) -> Vec<(Parameter, [f64; 2])> {
-        let each = setting.parameters.each().filter(|(_, value)| *value != 0.0);
+        let each = setting.parameters.stated().filter(|(_, value)| *value != 0.0);
         let (model, tolerance) = (self.study.model(), self.study.protocol.tolerance);
         each.filter_map(|(parameter, value)| {
             let found = model.sensitivity(setting, &at.section, period, tolerance, parameter)?;

@@ -62,8 +62,9 @@ fn an_axis_without_effect_is_named_with_the_reason() {
     let mu_s = said("", "mu_s", "[0.1, 0.2, 0.3, 0.9]");
     assert!(mu_s.contains("note: mu_s has no effect below 2 mu_d ="), "{mu_s}");
     assert!(mu_s.contains("of its 4 values give the same motion"), "{mu_s}");
-    let c1 = said("", "c1", r#"["1 N s/m", "2 N s/m"]"#);
-    assert!(c1.contains("note: c1 has no effect under the law `coulomb-stribeck`"), "{c1}");
+    let duty = said("", "duty", "[0.2, 0.4]");
+    assert!(duty.contains("note: duty has no effect with the drive `harmonic`"), "{duty}");
+    assert!(!said("", "c1", r#"["1 N s/m", "2 N s/m"]"#).contains("note:"));
     let v_s = said("resistance = \"coulomb\"", "v_s", r#"["0.1 m/s", "0.2 m/s"]"#);
     assert!(v_s.contains("note: v_s has no effect under the law `coulomb`"), "{v_s}");
     assert!(!said("", "v_s", r#"["0.1 m/s", "0.2 m/s"]"#).contains("note:"));

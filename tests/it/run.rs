@@ -36,17 +36,14 @@ samples_per_cycle = 20
 
 /// Figures of `RICH`: name, kind, what it shows and where.
 fn rich_figures() -> String {
-    let outputs: Vec<String> = Output::ALL
-        .iter()
-        .filter(|it| !it.is_optional())
-        .map(|output| format!("\"{}\"", output.name()))
-        .collect();
-    let outputs = outputs.join(", ");
+    let outputs = Study::default().outputs.into_iter().map(|it| format!("\"{}\"", it.name()));
+    let outputs = outputs.collect::<Vec<_>>().join(", ");
     let mut text = String::new();
     let mut figure = |name: &str, kind: &str, more: &str| {
         text += &format!("[[figures]]\nname = \"{name}\"\nkind = \"{kind}\"\n{more}\n");
     };
     let histories = DrawingKind::History.can_show(default_model(), &[]).join("\", \"");
+    let histories = histories.replace("\", \"history_rear_contact", "");
     figure("h", "history", &format!("of = [\"{histories}\"]\nat = {{ p_d = \"4 N\" }}"));
     figure("p", "phase-portrait", "cycles = [0, 1]");
     figure("b", "bifurcation", &format!("of = [{outputs}]\nx = \"p_d\""));

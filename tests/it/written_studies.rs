@@ -202,12 +202,10 @@ impl Random {
             study.base.switch_by(self.one(&Switching::NAMES).1);
         }
         if study.base.switching() == Switching::Filippov {
-            // Edges of any length do not fit into any period.
             let kinds = [DriveKind::Harmonic, DriveKind::Square, DriveKind::TwoHarmonics];
             study.base.drive_by(self.one(&kinds));
             study.base.react_on(self.one(&Reaction::NAMES).1);
-        }
-        if study.with_parts().have_optional_parts() {
+        } else if study.with_parts().have_optional_parts() {
             study.base.switch_by(Switching::Filippov);
         }
         let state = self.state();

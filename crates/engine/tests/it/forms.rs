@@ -8,8 +8,9 @@ use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::Protocol;
 use capsulemap_models::capsule::{
     self, AsPrinted, CapsuleParameters as _, CapsuleState as _, Case, EventKind, Filippov, Form,
-    General, Orbit, Parameters, Reading, Simulation, State,
+    General, Orbit, Parameter, Parameters, Reading, Simulation, State,
 };
+use capsulemap_models::description::Presence;
 use capsulemap_models::model::CaseQueue;
 use capsulemap_models::of::model_of;
 
@@ -74,10 +75,15 @@ fn among(case: &Case, protocol: &Protocol) -> Orbit {
     queue.orbit.expect("the case has been in the lanes to its end")
 }
 
-/// Another case, under the same law of resistance.
+/// Another case of the same shape.
 fn neighbour(case: &Case, number: usize) -> Case {
     let mut other = super::draws::cases(1, number as u64).remove(0);
-    other.parameters.resist_by(case.parameters.resistance());
+    let drawn = std::mem::replace(&mut other.parameters, case.parameters.clone());
+    for &parameter in Parameter::ALL {
+        if parameter.presence() == Presence::Always {
+            other.parameters[parameter] = drawn[parameter];
+        }
+    }
     other
 }
 
