@@ -121,10 +121,10 @@ fn tolerances_that_make_no_sense_are_refused_all_at_once() {
         "tradeoff",
         FILE,
         "--tolerances",
-        "k3 = 5 %, mu_s = 100 %, k2, p_d = 1 N, omega = 1 %, omega = 2 %",
+        "k9 = 5 %, mu_s = 100 %, k2, p_d = 1 N, omega = 1 %, omega = 2 %",
     ];
     folder.run(&asked).refused(&[
-        "k3",
+        "k9",
         "mu_s = 100 %: is 100 %; must lie between 0 and 100 %",
         "k2: expected PARAMETER = PERCENT",
         "p_d = 1 N",
