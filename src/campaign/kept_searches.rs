@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use super::count::count;
 use super::error::CampaignError;
 use super::refined_motion::{Led, RefinedMotion, Slopes, Start};
-use crate::description::{Outputs, Parameter, Presence, Section};
+use crate::description::{Outputs, Presence, Section};
 use crate::quantity::printable::printable;
 use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
 use crate::study::Study;
@@ -299,11 +299,10 @@ impl Written {
         }
         // Laws of friction and resistance do not vary.
         let mut parameters = study.with_parts();
-        let kept = study.base.model().parameters();
-        let is_part =
-            |it: &Parameter| it.presence() == Presence::Always || study.with_parts().is_given(*it);
-        for parameter in kept.filter(is_part) {
-            parameters[parameter] = (*self.parameters.get(parameter.symbol())?).into();
+        for parameter in study.base.model().parameters() {
+            if parameter.presence() == Presence::Always || parameters.is_given(parameter) {
+                parameters[parameter] = (*self.parameters.get(parameter.symbol())?).into();
+            }
         }
         let mut outputs = Outputs::unknown(study.base.model());
         for output in study.base.model().outputs() {

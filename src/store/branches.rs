@@ -111,9 +111,7 @@ fn add_requests(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
     if study.base.model().has_drive() {
         reals(dataset, REQUEST_PHASE, branches.iter().map(|branch| branch.section_phase));
     }
-    let is_told = |it: &Parameter| {
-        branches.iter().any(|branch| branch.parameters.stated().any(|(stated, _)| stated == *it))
-    };
+    let is_told = |it: &Parameter| branches.iter().any(|branch| branch.parameters.states(*it));
     for parameter in study.base.model().parameters().filter(is_told) {
         let values = branches.iter().map(|branch| branch.parameters[parameter]);
         reals(dataset, Place::Request.of(Entry::of_parameter(parameter)), values);

@@ -210,7 +210,7 @@ fn add_constants(dataset: &mut Dataset, study: &Study) {
 /// Whether there is something to tell of a coordinate that a study holds.
 fn is_told(study: &Study, coordinate: Coordinate) -> bool {
     match coordinate {
-        Coordinate::Parameter(parameter) => study.base.stated().any(|(it, _)| it == parameter),
+        Coordinate::Parameter(parameter) => study.base.states(parameter),
         _ => true,
     }
 }

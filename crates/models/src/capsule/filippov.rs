@@ -6,7 +6,7 @@ use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 
 use super::drag::Drag;
 use super::drive::Drive;
-use super::locomotion::{DriveSeries, Locomotion};
+use super::locomotion::{DriveSeries, Locomotion, direction};
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::shape::Shape;
@@ -135,14 +135,6 @@ impl<L: Lane> Capsule<L> {
         zeros[CONTACT] = L::select(due, L::splat(1.0), zeros[CONTACT]);
         L::select(due, code, L::splat(0.0))
     }
-}
-
-/// The sign of a number: -1, 0 or 1.
-#[inline(always)]
-fn direction<L: Lane>(x: L) -> L {
-    let zero = L::splat(0.0);
-    let forward = L::select(zero.lt(x), L::splat(1.0), zero);
-    L::select(x.lt(zero), L::splat(-1.0), forward)
 }
 
 impl<L: Lane> Switched<L> for Capsule<L> {

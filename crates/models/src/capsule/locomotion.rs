@@ -93,3 +93,11 @@ pub enum StickSlip {
     /// Sliding backward.
     Backward,
 }
+
+/// The sign of a number: -1, 0 or 1.
+#[inline(always)]
+pub(super) fn direction<L: Lane>(x: L) -> L {
+    let zero = L::splat(0.0);
+    let forward = L::select(zero.lt(x), L::splat(1.0), zero);
+    L::select(x.lt(zero), L::splat(-1.0), forward)
+}

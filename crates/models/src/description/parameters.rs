@@ -77,7 +77,12 @@ impl Parameters {
 
     /// Those that there is something to tell of: all but the optional ones that are not given.
     pub fn stated(&self) -> impl Iterator<Item = (Parameter, f64)> + '_ {
-        self.each().filter(|(it, _)| it.presence() != Presence::Optional || self.is_given(*it))
+        self.each().filter(|(it, _)| self.states(*it))
+    }
+
+    /// Whether there is something to tell of a parameter: one that is optional has to be given.
+    pub fn states(&self, parameter: Parameter) -> bool {
+        parameter.presence() != Presence::Optional || self.is_given(parameter)
     }
 
     /// Whether a parameter that the equations have only where it is given has been given.

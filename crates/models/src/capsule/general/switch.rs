@@ -5,15 +5,8 @@ use capsulemap_engine::lane::Lane;
 
 use super::equations::{FORWARD, FRONT, GeneralCapsule};
 use super::state::GeneralMode;
+use crate::capsule::locomotion::direction;
 use crate::capsule::state::{EventKind, State};
-
-/// The sign of a number: -1, 0 or 1.
-#[inline(always)]
-fn sign<L: Lane>(x: L) -> L {
-    let zero = L::splat(0.0);
-    let forward = L::select(zero.lt(x), L::splat(1.0), zero);
-    L::select(x.lt(zero), L::splat(-1.0), forward)
-}
 
 impl<L: Lane> GeneralCapsule<L> {
     /// The mode of a state at a time, which is moved onto rest where it rests.
@@ -29,8 +22,8 @@ impl<L: Lane> GeneralCapsule<L> {
         };
         let push = self.push(&mode, time, state);
         let breaks_away = self.beyond_rest(push);
-        let from_rest = L::select(breaks_away, sign(push), zero);
-        mode.slip = L::select(state.y2.abs().le(zero), from_rest, sign(state.y2));
+        let from_rest = L::select(breaks_away, direction(push), zero);
+        mode.slip = L::select(state.y2.abs().le(zero), from_rest, direction(state.y2));
         state.y2 = L::select(mode.slides(), state.y2, zero);
         mode
     }
@@ -46,7 +39,7 @@ impl<L: Lane> GeneralCapsule<L> {
     #[inline(always)]
     fn note_jump(&self, due: L::Mask, mode: &mut GeneralMode<L>, state: &State<L>, time: L) {
         let push = self.push(mode, time, state);
-        let thrown = L::select(self.beyond_rest(push), sign(push), L::splat(0.0));
+        let thrown = L::select(self.beyond_rest(push), direction(push), L::splat(0.0));
         mode.thrown = L::select(due & !mode.slides(), thrown, mode.thrown);
     }
 
