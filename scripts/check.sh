@@ -2,6 +2,8 @@
 # The one list of checks: what a person runs before handing in, and what .ci/run runs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+# The logs of what is installed lie there, and a new machine has no such folder.
+mkdir -p target
 
 # Readers of the result files, and a second computation of hypervolumes, as tried; the tests that need them say so when they are skipped.
 readers=(h5py==3.16.0 netCDF4==1.7.5.1.post1 h5netcdf==1.8.2 xarray==2026.9.0 numpy==2.4.6 moocore==0.3.2)
@@ -18,7 +20,6 @@ step() {
 
 python_readers() {
     local place=target/check-python log=target/check-python.log
-    mkdir -p target
     local python=$place/bin/python
     if ! command -v python3 >/dev/null; then
         echo "no python3 here: the tests with Python readers will be skipped"
@@ -48,7 +49,6 @@ strace_for_kills() {
 # Nobody wants a workload manager installed unasked, so it comes only where CI is set.
 slurm() {
     local log=target/check-slurm.log skipped="its test will be skipped"
-    mkdir -p target
     if has_slurm; then
         return
     elif [ -z "${CI:-}" ]; then
