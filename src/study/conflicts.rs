@@ -1,24 +1,16 @@
 //! What a study asks for that cannot be computed, as its model tells.
 
-use super::axis::{range, set};
+use super::axis::set;
 use super::document::Table;
-use super::{Coordinate, Study};
+use super::{Axis, Coordinate, Study};
 use crate::description::{Parameter, Parameters, Remark};
 use crate::motion::Case;
 
 /// Refuses what the model cannot compute, at the values that the study holds and at those of its axes and draws.
 pub(super) fn refuse(top: &Table<'_, '_>, study: &Study) {
-    let mut told: Vec<String> = Vec::new();
-    for (parameters, phase) in settings(study) {
-        for Remark { about, text } in (study.base.model().rules.conflicts)(&parameters, phase) {
-            if !told.contains(&text) {
-                told.push(text.clone());
-                top.conflict(&key(study, &about), &text);
-            }
-        }
-        // More of the same kind would say the same of other values.
-        if !told.is_empty() {
-            return;
+    if let Some(remarks) = first_conflicts(study) {
+        for Remark { about, text } in remarks {
+            top.conflict(&key(study, &about), &text);
         }
     }
 }
@@ -34,21 +26,34 @@ fn key(study: &Study, about: &[Parameter]) -> String {
     }
 }
 
-/// The settings of branches, and those of the study: each value that varies alone beside both ends of the others.
-fn settings(study: &Study) -> Vec<(Parameters, f64)> {
-    let of_branches = study.branches.iter().map(|it| (it.parameters.clone(), it.section_phase));
-    let of_cases = cases(study).into_iter().map(|it| (it.parameters, it.section_phase));
-    of_cases.chain(of_branches).collect()
-}
-
-/// Cases of the study on the corners of what varies, and on the edges between them at the values of axes.
-fn cases(study: &Study) -> Vec<Case> {
+/// What the model says of the first setting that it cannot compute; others would say the same of other values.
+fn first_conflicts(study: &Study) -> Option<Vec<Remark>> {
     let base = Case {
         parameters: study.with_parts(),
         start: study.start.clone(),
         start_phase: study.start_phase,
         section_phase: study.section_phase,
     };
+    let of_branches =
+        study.branches.iter().find_map(|it| conflicts(&it.parameters, it.section_phase));
+    let found = of_branches.or_else(|| conflicts(&base.parameters, base.section_phase));
+    if found.is_some() {
+        return found;
+    }
+    // What is optional alone can be in conflict; without it there may be millions of values to look at for nothing.
+    match base.parameters.have_optional_parts() {
+        true => in_what_varies(study, base),
+        false => None,
+    }
+}
+
+fn conflicts(parameters: &Parameters, phase: f64) -> Option<Vec<Remark>> {
+    let found = (parameters.model().rules.conflicts)(parameters, phase);
+    (!found.is_empty()).then_some(found)
+}
+
+/// Looks at the corners of what varies, and between them at the values of each axis.
+fn in_what_varies(study: &Study, base: Case) -> Option<Vec<Remark>> {
     let ends: Vec<(Coordinate, [f64; 2])> = study
         .case_set
         .varied()
@@ -60,15 +65,20 @@ fn cases(study: &Study) -> Vec<Case> {
     for (coordinate, ends) in &ends {
         corners = both(&corners, *coordinate, ends);
     }
-    let mut all = corners.clone();
-    for axis in
-        study.axes().iter().filter(|it| ends.iter().any(|(known, _)| *known == it.coordinate))
-    {
-        let inner = axis.values.iter().filter(|it| !range(&axis.values).contains(it));
-        let inner: Vec<f64> = inner.copied().collect();
-        all.extend(both(&corners, axis.coordinate, &inner));
-    }
-    all
+    let of_corners = corners.iter().find_map(|it| conflicts(&it.parameters, it.section_phase));
+    let moved = |it: &&Axis| ends.iter().any(|(known, _)| *known == it.coordinate);
+    of_corners.or_else(|| study.axes().iter().filter(moved).find_map(|it| along(it, &corners)))
+}
+
+/// Looks at the values of an axis beside the ends of all others.
+fn along(axis: &Axis, corners: &[Case]) -> Option<Vec<Remark>> {
+    corners.iter().find_map(|corner| {
+        let mut case = corner.clone();
+        axis.values.iter().find_map(|value| {
+            set(&mut case, axis.coordinate, *value);
+            conflicts(&case.parameters, case.section_phase)
+        })
+    })
 }
 
 /// These cases with each of some values in a coordinate.
