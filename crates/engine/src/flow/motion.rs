@@ -267,8 +267,8 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     /// Divides the known zeros out of a guard.
     #[inline(always)]
     fn divide_by_zeros<P: Lane<Mask = L::Mask>>(&self, which: usize, guard: &mut Series<P>) {
-        for vanished in [0.5, 1.5] {
-            let drop = L::splat(vanished).lt(self.zeros[which]);
+        for vanished in 0..S::MOST_ZEROS {
+            let drop = L::splat(vanished as f64 + 0.5).lt(self.zeros[which]);
             if drop.any() {
                 divide_by_time(guard, drop);
             }

@@ -13,7 +13,8 @@ pub const MAX_GUARDS: usize = 8;
 /// `switch` is given zeros that hold 0 for every guard whose state is not known, and writes a number for
 /// each guard that the event has placed on its own surface, as that guard reads *in the next mode*: 1 where
 /// its value is zero and its rate is not (a mass that leaves a stop with a velocity), 2 where its rate
-/// is zero too (a guard that is left from a state of rest). The engine divides the series by that power of
+/// is zero too (a guard that is left from a state of rest), 3 where its second derivative is zero as well (a mass that is let go by
+/// a stop whose force has fallen to zero). The engine divides the series by that power of
 /// time, so that only later roots are looked for and nothing has to be offset by a tolerance. A zero that is
 /// not told is found as an event again, at once or after a time of the order of rounding; a zero told of a
 /// guard that does not vanish hides its next root. Values last until the next step of positive length.
@@ -78,6 +79,8 @@ pub trait Switched<L: Lane> {
 
     /// How many guards there are, at most [`MAX_GUARDS`], or one less where the system is autonomous.
     const GUARDS: usize;
+    /// The most leading coefficients of a guard that [`Zeros`] may tell to vanish.
+    const MOST_ZEROS: usize = 2;
     /// Whether the section is where [`Switched::section`] falls through zero, not once a drive cycle.
     const AUTONOMOUS: bool = false;
 
