@@ -92,6 +92,14 @@ fn member_sets() -> Vec<(&'static str, Vec<Parameters>)> {
                 p[Parameter::C1] = 0.5;
             }),
         ),
+        ("grid, rigid stop", with(&|p| p[Parameter::Restitution] = 0.5)),
+        (
+            "grid, prescribed motion",
+            with(&|p| {
+                p.drive_by(DriveKind::Prescribed);
+                p[Parameter::Xi1] = 0.003;
+            }),
+        ),
         ("grid, cubic spring", with(&|p| p[Parameter::K1Cubic] = 1e7)),
     ]
 }

@@ -96,6 +96,7 @@ pub static MASS_ON_BELT: Description = Description {
     roles: Roles {
         drive: None,
         impact_surface: None,
+        rear_surface: None,
         natural: None,
         trade_off: None,
         rest_share: None,

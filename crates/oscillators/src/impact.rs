@@ -109,6 +109,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
     roles: Roles {
         drive: Some(DriveRoles { frequency: 2, period: None, amplitude: 1 }),
         impact_surface: Some(4),
+        rear_surface: None,
         natural: None,
         trade_off: None,
         rest_share: None,

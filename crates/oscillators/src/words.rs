@@ -23,6 +23,7 @@ pub const fn parameter(
         default,
         is_asked_for: false,
         presence: Presence::Always,
+        replaces: None,
     }
 }
 

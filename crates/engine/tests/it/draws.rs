@@ -3,8 +3,8 @@
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{Machine, Outcome, Protocol};
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, Case, DriveKind, Orbit, Parameter, Parameters, Reaction, Resistance,
-    State, settle_all,
+    CapsuleParameters as _, Case, DriveKind, Orbit, Parameter, Parameters, Reaction, Release,
+    Resistance, State, settle_all,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -85,8 +85,18 @@ pub fn members(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
     let mut cases = wide(count, seed, law);
     for case in &mut cases {
         draw_member(&mut case.parameters, &mut shapes, &mut values);
+        start_before_stop(case);
     }
     cases
+}
+
+/// Puts a start behind a rigid stop as far before it.
+fn start_before_stop(case: &mut Case) {
+    let gap = case.parameters[Parameter::Delta];
+    if case.parameters.shape().is_rigid() {
+        let State { r, y1, x2, y2 } = State::from(&case.start);
+        case.start = State { r: if r > gap { 2.0 * gap - r } else { r }, y1, x2, y2 }.into();
+    }
 }
 
 /// The same of one shape, which the seed decides.
@@ -95,6 +105,7 @@ pub fn alike(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
     let mut cases = wide(count, seed, law);
     for case in &mut cases {
         draw_member(&mut case.parameters, &mut Random::new(seed ^ 0x5ead), &mut values);
+        start_before_stop(case);
     }
     cases
 }
@@ -107,7 +118,7 @@ fn draw_member(p: &mut Parameters, shapes: &mut Random, values: &mut Random) {
 
 /// Draws how a member is driven.
 fn draw_drive(p: &mut Parameters, shapes: &mut Random, random: &mut Random) {
-    let (_, kind) = DriveKind::NAMES[shapes.uniform(0.0, 4.0) as usize];
+    let (_, kind) = DriveKind::NAMES[shapes.uniform(0.0, 7.0) as usize];
     p.drive_by(kind);
     if shapes.uniform(0.0, 1.0) < 0.5 {
         p.react_on(Reaction::Capsule);
@@ -115,7 +126,13 @@ fn draw_drive(p: &mut Parameters, shapes: &mut Random, random: &mut Random) {
     let p_d = p[Parameter::Pd];
     let duty = random.uniform(0.02, 0.98);
     let rise = random.uniform(0.02, 0.98) * duty.min(1.0 - duty);
+    let first = random.uniform(0.02, 0.98);
     let all = [
+        (Parameter::Xi1, random.uniform(-1e-2, 1e-2)),
+        (Parameter::Xi2, random.uniform(-5e-3, 5e-3)),
+        (Parameter::Stroke, random.uniform(1e-3, 2e-2)),
+        (Parameter::Share1, first),
+        (Parameter::Share2, random.uniform(0.02, 0.98) * (1.0 - first)),
         (Parameter::Duty, duty),
         (Parameter::Rise, rise),
         (Parameter::PLow, random.uniform(-1.0, 0.5) * p_d),
@@ -137,10 +154,11 @@ fn draw_drive(p: &mut Parameters, shapes: &mut Random, random: &mut Random) {
 /// Draws stops, springs and ground of a member; each part is there in a third of them.
 fn draw_parts(p: &mut Parameters, shapes: &mut Random, random: &mut Random) {
     let load = p.normal_load();
-    let all: [(Parameter, f64); 20] = [
+    let all: [(Parameter, f64); 21] = [
         (Parameter::Incline, random.uniform(-0.6, 0.6)),
         (Parameter::Load, random.uniform(-0.4, 0.4) * load),
         (Parameter::PreloadGap, random.uniform(-2e-3, 2e-3)),
+        (Parameter::Restitution, random.or_least(0.0, 1.0)),
         (Parameter::K3, random.logarithmic(1e2, 1e6)),
         (Parameter::Delta3, random.or_least(0.0, 1e-2)),
         (Parameter::K2Damping, random.logarithmic(1e-2, 30.0)),
@@ -159,6 +177,9 @@ fn draw_parts(p: &mut Parameters, shapes: &mut Random, random: &mut Random) {
         (Parameter::C2Forward, random.or_least(0.0, 30.0)),
         (Parameter::C2Backward, random.or_least(0.0, 30.0)),
     ];
+    if shapes.uniform(0.0, 1.0) < 0.5 {
+        p.release_by(Release::Force);
+    }
     for (parameter, value) in all {
         let is_there = shapes.uniform(0.0, 1.0) < 0.3;
         let is_drag = matches!(parameter, Parameter::C1 | Parameter::C2);
@@ -197,6 +218,7 @@ pub fn rich_members(count: usize, seed: u64) -> Vec<Case> {
     let mut cases = cases(count, seed);
     for case in &mut cases {
         draw_member(&mut case.parameters, &mut shapes, &mut values);
+        start_before_stop(case);
     }
     cases
 }

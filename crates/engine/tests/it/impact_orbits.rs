@@ -12,9 +12,9 @@ use super::oscillators::{Impact, mapped, repeated};
 /// With time t since the impact, x = p(t) + h(t): the forced part p = a cos(w t + phi - psi) repeats, so
 /// the free part h makes good the jump of the velocity, h(P) = h(0) and h'(P) = h'(0) + (1 + e) u at an
 /// impact of speed u (Shaw and Holmes 1983).
-struct OneImpact {
-    oscillator: Impact<f64>,
-    n: u64,
+pub(super) struct OneImpact {
+    pub(super) oscillator: Impact<f64>,
+    pub(super) n: u64,
     /// Duration, P.
     duration: f64,
     /// Free motion at the impact, h(0) and h'(0).
@@ -22,7 +22,7 @@ struct OneImpact {
     /// Amplitude a of the forced part, its lag psi, and the phase phi of the drive at the impact.
     forced: [f64; 3],
     /// Speed at which the stop is met, u.
-    speed: f64,
+    pub(super) speed: f64,
 }
 
 /// The free motion over t as a matrix: e^(-ct/2) times a turn by sqrt(1 - c^2/4) t.
@@ -34,7 +34,7 @@ fn free_motion(c: f64, t: f64) -> [[f64; 2]; 2] {
 }
 
 impl OneImpact {
-    fn new(n: u64, omega: f64, restitution: f64, c: f64) -> Self {
+    pub(super) fn new(n: u64, omega: f64, restitution: f64, c: f64) -> Self {
         let oscillator =
             Impact { k: 1.0, c, drive: 1.0, omega, gravity: 0.0, stop: 0.0, restitution };
         let duration = n as f64 * 2.0 * PI / omega;
@@ -65,12 +65,12 @@ impl OneImpact {
     }
 
     /// Whether the mass stays clear of the stop until the next impact.
-    fn is_possible(&self) -> bool {
+    pub(super) fn is_possible(&self) -> bool {
         (1..2000).all(|i| self.at(self.duration * f64::from(i) / 2000.0)[0] < 0.0)
     }
 
     /// Where the section, the drive at phase zero, is met first.
-    fn section(&self) -> [f64; 2] {
+    pub(super) fn section(&self) -> [f64; 2] {
         self.at((2.0 * PI - self.forced[2]) / self.oscillator.omega)
     }
 

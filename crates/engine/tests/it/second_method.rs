@@ -3,7 +3,7 @@
 mod equations;
 
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, Parameter, Parameters, Resistance, State,
+    CapsuleParameters as _, DriveKind, Parameter, Parameters, Resistance, State,
 };
 
 use equations::{Line, Second};
@@ -25,6 +25,8 @@ const LEAST: Vector = [1e-5, 1e-3, 1e-5, 1e-3];
 enum Guard {
     /// The stop of this number.
     Contact(usize),
+    /// The force of the stop of this number.
+    Force(usize),
     Speed,
     BreakAway(f64),
 }
@@ -33,8 +35,16 @@ enum Guard {
 pub fn follow(p: &Parameters, phase: f64, start: State<f64>, cycles: u64) -> Vec<Vector> {
     let state = [start.r, start.y1, start.x2, start.y2];
     let line = Line::default();
-    let mut second = Second { p, phase, touched: [false; 2], slip: 0.0, line, scale: LEAST };
-    second.touched = [0, 1].map(|stop| second.depth(stop, &state) > 0.0);
+    let mut second =
+        Second { p, phase, touched: [false; 2], let_go: [false; 2], slip: 0.0, line, scale: LEAST };
+    let beyond = [0, 1].map(|stop| second.depth(stop, &state) > 0.0);
+    assert!(!(beyond[0] && second.is_rigid()), "no motion starts behind a rigid stop");
+    second.let_go =
+        [0, 1].map(|stop| second.releases_by_force() && second.pressing(stop, &state) < 0.0);
+    for stop in [0, 1] {
+        second.touched[stop] = beyond[stop] && !second.let_go[stop];
+        second.let_go[stop] &= beyond[stop];
+    }
     second.line = second.line_at(0.0, 0.0);
     second.slip = match start.y2 {
         0.0 => second.start_of_sliding(0.0, &state),
@@ -88,9 +98,20 @@ impl Second<'_> {
     fn guards(&self, t: f64, state: &Vector) -> Vec<(Guard, f64)> {
         let contact = |stop: usize| {
             let depth = self.depth(stop, state);
-            (Guard::Contact(stop), if self.touched[stop] { depth } else { -depth })
+            let is_beyond = self.touched[stop] || self.let_go[stop];
+            (Guard::Contact(stop), if is_beyond { depth } else { -depth })
         };
         let mut guards = vec![contact(0), contact(1)];
+        if self.is_at_stop() {
+            guards[0].1 = self.bearing(t, state);
+        }
+        for stop in [0, 1] {
+            let pressing = self.pressing(stop, state);
+            if self.releases_by_force() && (self.touched[stop] || self.let_go[stop]) {
+                let sign = if self.touched[stop] { 1.0 } else { -1.0 };
+                guards.push((Guard::Force(stop), sign * pressing));
+            }
+        }
         if self.slip != 0.0 {
             guards.push((Guard::Speed, self.slip * state[3]));
             return guards;
@@ -139,13 +160,18 @@ impl Second<'_> {
     fn cycle(&mut self, mut state: Vector) -> Vector {
         let mut from = 0.0;
         for to in self.cuts() {
+            let before = self.line;
             self.line = self.line_at(from, to);
+            if from > 0.0 {
+                self.jump_at_edge(before, from, &mut state);
+            }
             // The force on a capsule at rest may have jumped.
             let leaves = if self.slip == 0.0 { self.start_of_sliding(from, &state) } else { 0.0 };
             let mut fired = None;
             if leaves != 0.0 {
                 (self.slip, fired) = (leaves, Some(Guard::Speed));
             }
+            fired = self.let_go_at_once(from, &state).or(fired);
             state = self.between_edges(from, to, state, fired);
             from = to;
         }
@@ -252,6 +278,27 @@ impl Second<'_> {
     /// Changes the mode, and puts the state on the surface that it begins on.
     fn switched(&mut self, guard: Guard, t: f64, state: &mut Vector) -> Option<Guard> {
         match guard {
+            Guard::Contact(0) if self.is_rigid() => {
+                state[0] = self.of(Parameter::Delta);
+                if self.touched[0] {
+                    self.touched[0] = false;
+                } else {
+                    self.bounce(t, state);
+                }
+                if self.slip == 0.0 {
+                    self.slip = self.start_of_sliding(t, state);
+                }
+                Some(guard)
+            }
+            Guard::Force(stop) => {
+                let lets_go = self.touched[stop];
+                (self.touched[stop], self.let_go[stop]) = (!lets_go, lets_go);
+                Some(guard)
+            }
+            Guard::Contact(stop) if self.let_go[stop] => {
+                self.let_go[stop] = false;
+                Some(guard)
+            }
             Guard::Contact(stop) => {
                 self.touched[stop] = !self.touched[stop];
                 let surfaces = [self.of(Parameter::Delta), -self.part(Parameter::Delta3)];
@@ -265,17 +312,77 @@ impl Second<'_> {
             }
             Guard::BreakAway(side) => {
                 self.slip = side;
-                Some(Guard::Speed)
+                self.let_go_at_once(t, state).or(Some(Guard::Speed))
             }
             Guard::Speed => {
                 state[3] = 0.0;
+                if self.is_at_stop() {
+                    state[1] = 0.0;
+                }
                 self.slip = self.start_of_sliding(t, state);
-                (self.slip != 0.0).then_some(Guard::Speed)
+                let own = (self.slip != 0.0).then_some(Guard::Speed);
+                self.let_go_at_once(t, state).or(own)
             }
+        }
+    }
+
+    /// Opens a contact that lasts where its force has jumped below zero.
+    fn let_go_at_once(&mut self, t: f64, state: &Vector) -> Option<Guard> {
+        if !self.is_at_stop() || self.bearing(t, state) >= 0.0 {
+            return None;
+        }
+        self.touched[0] = false;
+        if self.slip == 0.0 {
+            self.slip = self.start_of_sliding(t, state);
+        }
+        Some(Guard::Contact(0))
+    }
+
+    /// Where a prescribed velocity jumps, momentum stays.
+    fn jump_at_edge(&mut self, before: Line, t: f64, state: &mut Vector) {
+        if self.p.shape().drive != DriveKind::TwoPhase {
+            return;
+        }
+        let [m1, m2] = [Parameter::M1, Parameter::M2].map(|it| self.of(it));
+        let after = self.line;
+        self.line = before;
+        let old = self.prescribed(t)[0];
+        self.line = after;
+        let new = self.prescribed(t)[0];
+        state[3] -= m1 * (new - old) / (m1 + m2);
+        state[1] = state[3] + new;
+        self.slip = sign(state[3]);
+    }
+
+    /// An impact on the rigid stop: momentum stays, the relative velocity turns round; where what follows is over within 1e-8 of the
+    /// period, the mass stays at the stop, as shorter flights are rounding here.
+    fn bounce(&mut self, t: f64, state: &mut Vector) {
+        let [m1, m2, e] =
+            [Parameter::M1, Parameter::M2, Parameter::Restitution].map(|it| self.of(it));
+        let momentum = m1 * state[1] + m2 * state[3];
+        let back = e * (state[1] - state[3]);
+        let with = |relative: f64| {
+            let y2 = (momentum + m1 * relative) / (m1 + m2);
+            (y2 - relative, y2)
+        };
+        (state[1], state[3]) = with(back);
+        self.slip = sign(state[3]);
+        let rates = self.rates(t, state);
+        let pressed = rates[1] - rates[3];
+        let lasting = 1e-8 * 2.0 * std::f64::consts::PI / self.omega();
+        if pressed > 0.0 && 2.0 * back <= pressed * (1.0 - e) * lasting {
+            (state[1], state[3]) = with(0.0);
+            self.slip = sign(state[3]);
+            self.touched[0] = true;
         }
     }
 }
 
 fn moved(state: &Vector, h: f64, rates: &Vector) -> Vector {
     std::array::from_fn(|i| state[i] + h * rates[i])
+}
+
+/// The sign of a number, zero of zero.
+fn sign(x: f64) -> f64 {
+    if x == 0.0 { 0.0 } else { x.signum() }
 }

@@ -1,18 +1,18 @@
 //! What a stretch of motion costs and yields: energies, counts, shares and margins.
 
 use capsulemap_engine::flow::guard::Crossings;
-use capsulemap_engine::flow::{Event, Observer, Step};
+use capsulemap_engine::flow::{Observer, Step};
 use capsulemap_engine::lane::quadrature::{Values, integral_of_product, values};
 use capsulemap_engine::lane::{Lane, Mask, series, side_by_side};
 
 use super::beside::Beside;
 use super::energies::Energies;
 use super::impacts::{Impact, Impacts};
-use super::locomotion::{DriveSeries, Locomotion, Parts};
+use super::locomotion::{DriveSeries, Jump, Locomotion, Parts};
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::shape::Shape;
-use super::state::{EventKind, State};
+use super::state::{EventKind, State, is_event};
 use crate::description::Parameters;
 
 /// The constants of the capsules that are observed.
@@ -86,11 +86,12 @@ impl<L: Lane> Account<L> {
     /// Nothing seen yet of capsules of one shape; of the impacts so many `points` are kept.
     pub fn new(of: impl Fn(Parameter) -> L, shape: Shape, points: usize) -> Self {
         let (zero, far) = (L::splat(0.0), L::splat(f64::INFINITY));
+        let is_prescribed = shape.drive.is_prescribed();
         Account {
             of: Constants {
-                c: of(Parameter::C),
+                c: if is_prescribed { zero } else { of(Parameter::C) },
                 k2: of(Parameter::K2),
-                delta: of(Parameter::Delta),
+                delta: if is_prescribed { far } else { of(Parameter::Delta) },
                 omega: shape.frequency(&of),
             },
             points,
@@ -250,6 +251,9 @@ impl<L: Lane> Account<L> {
         self.grazing_margin = L::select(here & is_maximum, grazing.min(margin), grazing);
         match parts {
             Some(parts) => {
+                if parts.is_rigid {
+                    margin = L::select(is_maximum, margin, L::splat(f64::INFINITY));
+                }
                 margin = margin.min(self.beside.meet_extremum(here & !is_maximum, r, parts))
             }
             None => self.meet_contact(here & is_maximum, r),
@@ -288,15 +292,44 @@ impl<L: Lane> Account<L> {
         let begins_backward = is_event(step.event, EventKind::SlipBackward);
         let forward = begins_forward | (reverses & !was_forward);
         let backward = begins_backward | (reverses & was_forward);
+        let [forward, backward] = match system.jump(step) {
+            Some(jump) => self.see_jump(&jump, system.direction(&step.mode), [forward, backward]),
+            None => [forward, backward],
+        };
         self.forward_slips = one_more(self.forward_slips, forward);
         self.backward_slips = one_more(self.backward_slips, backward);
     }
 }
 
-/// Where the event of this code is of a kind.
-#[inline(always)]
-fn is_event<L: Lane>(code: L, kind: EventKind) -> L::Mask {
-    (code - kind.code()).abs().lt(L::splat(0.5))
+impl<L: Lane> Account<L> {
+    /// Adds what a jump of the velocities costs; returns where sliding begins forward and backward, with what begins it by a jump.
+    #[inline(always)]
+    fn see_jump(
+        &mut self,
+        jump: &Jump<L>,
+        before: L,
+        [forward, backward]: [L::Mask; 2],
+    ) -> [L::Mask; 2] {
+        let zero = L::splat(0.0);
+        let lost = L::select(jump.here, jump.lost, zero);
+        self.beside.contact_loss = self.beside.contact_loss + lost;
+        let taken = L::select(jump.here, jump.driven[0], zero);
+        let given = L::select(jump.here, jump.driven[1], zero);
+        let energies = &mut self.energies;
+        energies.work_net = energies.work_net + (given - taken);
+        energies.work_actuator = energies.work_actuator + (given - taken);
+        energies.work_positive = energies.work_positive + given;
+        energies.work_absolute = energies.work_absolute + (given + taken);
+        // A rate of r that jumps has no zero there.
+        self.rate_of_r = L::select(jump.here, zero, self.rate_of_r);
+        let begins_forward = jump.here & zero.lt(jump.y2) & before.le(zero);
+        let begins_backward = jump.here & jump.y2.lt(zero) & zero.le(before);
+        self.reversals = one_more(
+            self.reversals,
+            (begins_forward & before.lt(zero)) | (begins_backward & zero.lt(before)),
+        );
+        [forward | begins_forward, backward | begins_backward]
+    }
 }
 
 /// A count that is one more here.

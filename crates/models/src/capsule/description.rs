@@ -8,7 +8,7 @@ use super::quantities::{
 };
 use super::resistance::{Resistance, Switching};
 use super::rules::RULES;
-use super::shape::{DriveKind, Reaction};
+use super::shape::{DriveKind, Reaction, Release};
 use super::shown::{output_shown, parameter_shown};
 use super::signals;
 use super::state::State;
@@ -53,7 +53,15 @@ pub static CAPSULE: Description = Description {
             meaning: "how the force on the mass depends on the phase of the drive",
             options: &DriveKind::OPTIONS,
             tag: "drive",
-            option_tags: &["Harmonic", "Square", "Trapezoid", "TwoHarmonics"],
+            option_tags: &[
+                "Harmonic",
+                "Square",
+                "Trapezoid",
+                "TwoHarmonics",
+                "Prescribed",
+                "TwoPhase",
+                "ThreePhase",
+            ],
             is_optional: true,
         },
         Choice {
@@ -64,6 +72,16 @@ pub static CAPSULE: Description = Description {
             options: &Reaction::OPTIONS,
             tag: "reaction",
             option_tags: &["None", "Capsule"],
+            is_optional: true,
+        },
+        Choice {
+            name: "release",
+            noun: "release",
+            title: "Release of damped stops",
+            meaning: "when the mass leaves a stop that damps",
+            options: &Release::OPTIONS,
+            tag: "release",
+            option_tags: &["Geometry", "Force"],
             is_optional: true,
         },
     ],
@@ -89,6 +107,7 @@ pub static CAPSULE: Description = Description {
             amplitude: Parameter::Pd as usize,
         }),
         impact_surface: Some(Parameter::Delta as usize),
+        rear_surface: Some(Parameter::Delta3 as usize),
         natural: Some([Parameter::K1 as usize, Parameter::M1 as usize]),
         trade_off: Some(TradeOffRoles {
             speed: Output::ProgressionSpeed as usize,
@@ -162,7 +181,12 @@ impl Parameter {
         let is_asked_for =
             matches!(self, Parameter::Omega | Parameter::Pd | Parameter::K2 | Parameter::Delta);
         let (tag, presence) = (self.tag(), self.presence());
-        ParameterDescription { quantity, tag, allowed, default, is_asked_for, presence }
+        let replaces = match self {
+            Parameter::Period => Some(Parameter::Omega as usize),
+            Parameter::Restitution => Some(Parameter::K2 as usize),
+            _ => None,
+        };
+        ParameterDescription { quantity, tag, allowed, default, is_asked_for, presence, replaces }
     }
 
     /// It as a parameter that the description of the capsule tells of.

@@ -54,6 +54,15 @@ impl<L: Lane> Drive<L> {
         self.write_cos(sin_cos(self.omega * time), c);
     }
 
+    /// The harmonic at a time, and minus its sine, each times the amplitude.
+    #[inline(always)]
+    pub fn turned(&self, time: L) -> [L; 2] {
+        let (sin, cos) = sin_cos(self.omega * time);
+        let cosine = cos * self.cos_phase - sin * self.sin_phase;
+        let sine = sin * self.cos_phase + cos * self.sin_phase;
+        [self.amplitude * cosine, -(self.amplitude * sine)]
+    }
+
     /// Writes the series from where the harmonic has turned by an angle with this sine and cosine.
     #[inline(always)]
     fn write_cos(&self, (sin, cos): (L, L), c: &mut Series<L>) {

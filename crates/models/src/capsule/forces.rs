@@ -1,8 +1,8 @@
 //! The forces on the capsule in a state of the motion.
 
 use super::general::{Ground, Springs, Touched};
+use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
-use super::shape::Reaction;
 use super::state::State;
 use crate::description::Parameters;
 
@@ -26,17 +26,39 @@ impl Forces {
         let shape = parameters.shape();
         let springs = Springs::new(|it| parameters[it], shape);
         let ground = Ground::new(|it| parameters[it], shape);
-        let touched = Touched {
+        let is_beyond = Touched {
             front: springs.front.at < state.r,
             rear: springs.has_rear() && state.r < springs.rear.at,
         };
-        let of_mass = springs.force(&touched, state);
-        let reaction = if shape.reaction == Reaction::Capsule { drive } else { 0.0 };
-        let friction = match state.y2 {
-            0.0 => of_mass - reaction + ground.push,
-            y2 => ground.force(y2.signum(), y2),
+        let is_let_go = |pushes: f64| springs.release_by_force && pushes < 0.0;
+        let touched = Touched {
+            front: is_beyond.front && !is_let_go(springs.of_front(&is_beyond, state)),
+            rear: is_beyond.rear && !is_let_go(-springs.of_rear(&is_beyond, state)),
         };
-        let contact = springs.of_front(&touched, state);
-        Forces { contact, rear_contact: -springs.of_rear(&touched, state), of_mass, friction }
+        let reaction = if shape.reacts() { drive } else { 0.0 };
+        let own = springs.force(&touched, state);
+        let external = drive - reaction + ground.pull + ground.push;
+        let slides = match state.y2 {
+            0.0 => None,
+            y2 => Some(ground.force(y2.signum(), y2)),
+        };
+        let is_at_stop = springs.is_rigid && state.r == springs.front.at && state.y1 == state.y2;
+        let bearing = match slides {
+            _ if !is_at_stop => 0.0,
+            None => drive - own + ground.pull,
+            Some(friction) => {
+                let [m1, m2] = [Parameter::M1, Parameter::M2].map(|it| parameters[it]);
+                drive - own + ground.pull - m1 * (external - friction) / (m1 + m2)
+            }
+        };
+        // Where the stop would have to pull, the mass is about to leave it.
+        let bearing = bearing.max(0.0);
+        let of_mass = own + bearing;
+        Forces {
+            contact: springs.of_front(&touched, state) + bearing,
+            rear_contact: -springs.of_rear(&touched, state),
+            of_mass,
+            friction: slides.unwrap_or(of_mass - reaction + ground.push),
+        }
     }
 }

@@ -46,6 +46,15 @@ pub trait Locomotion<L: Lane>: Switched<L, State = State<L>, Event = EventKind> 
         None
     }
 
+    /// What the event at the end of a step changes of the velocities; none of a capsule whose velocities never jump.
+    #[inline(always)]
+    fn jump(&self, _step: &Step<L, Self>) -> Option<Jump<L>>
+    where
+        Self: Sized,
+    {
+        None
+    }
+
     /// Whether the mass touches the stop in lane `index`.
     fn contact(&self, mode: &Self::Mode, index: usize) -> Contact {
         if self.closed(mode).lane(index) { Contact::Closed } else { Contact::Open }
@@ -61,6 +70,41 @@ pub trait Locomotion<L: Lane>: Switched<L, State = State<L>, Event = EventKind> 
     }
 }
 
+/// A jump of the velocities.
+#[derive(Debug, Clone, Copy)]
+pub struct Jump<L: Lane> {
+    /// Where there is one.
+    pub here: L::Mask,
+    /// The velocity of the capsule after it [m/s].
+    pub y2: L,
+    /// The kinetic energy that a stop takes from the motion [J].
+    pub lost: L,
+    /// The kinetic energy that the drive takes from the relative motion, and what it gives [J].
+    pub driven: [L; 2],
+}
+
+impl<L: Lane> Jump<L> {
+    /// An energy that the motion loses at once, where it is not zero, while the capsule keeps its velocity.
+    #[inline(always)]
+    pub fn of_energy(lost: L, y2: L) -> Self {
+        let zero = L::splat(0.0);
+        Jump { here: zero.lt(lost * lost), y2, lost, driven: [zero; 2] }
+    }
+
+    /// It where there is one, else another.
+    #[inline(always)]
+    pub fn or(self, other: Self) -> Self {
+        let of = |own: L, others: L| L::select(self.here, own, others);
+        let [taken, given] = self.driven;
+        Jump {
+            here: self.here | other.here,
+            y2: of(self.y2, other.y2),
+            lost: of(self.lost, other.lost),
+            driven: [of(taken, other.driven[0]), of(given, other.driven[1])],
+        }
+    }
+}
+
 /// What a member of the family has beside one stop, a damper and friction, during a step.
 #[derive(Debug, Clone)]
 pub struct Parts<L: Lane> {
@@ -68,6 +112,8 @@ pub struct Parts<L: Lane> {
     pub stops: [Series<L>; 2],
     /// Where the rear stop is [m]; far away where there is none.
     pub rear: L,
+    /// Whether the front stop is rigid, so that no motion beyond its place has a minimum there.
+    pub is_rigid: bool,
     /// The damping of the stops that are touched [N s/m].
     pub damping: L,
     /// The drag on the capsule while it slides [N].

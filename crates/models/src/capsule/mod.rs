@@ -55,7 +55,7 @@ pub use sensitivity::sensitivity;
 pub use settle::{
     CapsuleCase, orbit_of, outputs, per_cycle, settle, settle_all, settle_as, settle_case,
 };
-pub use shape::{DriveKind, Form, Reaction, Shape};
+pub use shape::{DriveKind, Form, Reaction, Release, Shape};
 pub use simulate::{Event, Sample, Simulation, simulate, simulate_case};
 pub use state::{CapsuleState, EventKind, Jet, State};
 pub use system::{AsPrinted, CapsuleSystem, Filippov, General, Reading};

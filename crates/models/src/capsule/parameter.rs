@@ -67,6 +67,11 @@ parameters! {
     Rise "rise" Number Share 0.1 "share of the period that an edge of a pulse lasts";
     P2 "p_2" Force Finite 0.0 "amplitude of the second harmonic of the drive";
     Phase2 "phase_2" Angle Finite 0.0 "phase of the second harmonic of the drive";
+    Xi1 "xi_1" Length Finite 0.005 "amplitude of a prescribed relative motion";
+    Xi2 "xi_2" Length Finite 0.0 "amplitude of its second harmonic";
+    Stroke "stroke" Length NonNegative 0.01 "stroke of a prescribed relative motion in phases";
+    Share1 "share_1" Number Share 0.25 "share of the period of the first of three phases";
+    Share2 "share_2" Number Share 0.5 "share of the period of the second of three phases";
     Incline "incline" Angle Slope 0.0 "slope of the ground; forward is uphill";
     Load "load" Force Finite 0.0 "constant force on the capsule; forward is positive";
     PreloadGap "preload_gap" Length Finite 0.0 "compression of the spring k1 where r = 0";
@@ -76,6 +81,7 @@ parameters! {
     K3Damping "k3_damping" Damping NonNegative 0.0 "damping of the rear stop in contact";
     K1Cubic "k1_cubic" CubicStiffness Finite 0.0 "cubic stiffness between mass and capsule";
     K2Cubic "k2_cubic" CubicStiffness Finite 0.0 "cubic stiffness of the stop";
+    Restitution "restitution" Number UpToOne 0.5 "coefficient of restitution of a rigid stop, in place of k2";
     MuSForward "mu_s_forward" Number NonNegative 0.66 "static friction coefficient against forward motion";
     MuSBackward "mu_s_backward" Number NonNegative 0.66 "static friction coefficient against backward motion";
     MuDForward "mu_d_forward" Number NonNegative 0.33 "dynamic friction coefficient of forward motion";

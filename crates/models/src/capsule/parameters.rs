@@ -6,7 +6,7 @@ use super::drag::Drag;
 use super::general::balance::Balance;
 use super::parameter::Parameter;
 use super::resistance::{Resistance, Switching};
-use super::shape::{DriveKind, Form, Reaction, Shape};
+use super::shape::{DriveKind, Form, Reaction, Release, Shape};
 use crate::description::Parameters;
 
 /// The places of the choices of a capsule.
@@ -14,6 +14,7 @@ const RESISTANCE: usize = 0;
 const SWITCHING: usize = 1;
 const DRIVE: usize = 2;
 const REACTION: usize = 3;
+const RELEASE: usize = 4;
 
 /// What follows from the parameters of a capsule.
 pub trait CapsuleParameters: Sized {
@@ -37,6 +38,9 @@ pub trait CapsuleParameters: Sized {
 
     /// Chooses what takes up the reaction of the drive.
     fn react_on(&mut self, reaction: Reaction);
+
+    /// Chooses when the mass leaves a stop that damps.
+    fn release_by(&mut self, release: Release);
 
     /// What the equations are made of.
     fn shape(&self) -> Shape;
@@ -105,6 +109,10 @@ impl CapsuleParameters for Parameters {
 
     fn react_on(&mut self, reaction: Reaction) {
         self.choose(REACTION, reaction as usize);
+    }
+
+    fn release_by(&mut self, release: Release) {
+        self.choose(RELEASE, release as usize);
     }
 
     fn shape(&self) -> Shape {

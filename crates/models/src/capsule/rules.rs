@@ -6,7 +6,7 @@ use super::general::edge_at;
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::resistance::Switching;
-use super::shape::{DriveKind, Form, Reaction};
+use super::shape::{DriveKind, Form, Reaction, Release};
 use crate::description::{self, Parameters, Remark, Rules};
 
 /// What the capsule says of values beside each other.
@@ -20,7 +20,18 @@ fn no_effect(parameters: &Parameters, parameter: description::Parameter) -> Opti
 
 /// That static friction is too small to have an effect, and that nothing holds the mean force.
 fn remarks(parameters: &Parameters) -> Vec<Remark> {
-    idle_static_friction(parameters).into_iter().chain(runaway(parameters)).collect()
+    let own = [idle_static_friction(parameters), runaway(parameters), idle_release(parameters)];
+    own.into_iter().flatten().collect()
+}
+
+/// That stops without damping are left where their force falls to zero in any case.
+fn idle_release(parameters: &Parameters) -> Option<Remark> {
+    let shape = parameters.shape();
+    let is_idle = shape.release == Release::Force && !shape.releases_by_force();
+    is_idle.then(|| Remark {
+        about: described(&[Parameter::K2Damping, Parameter::K3Damping]),
+        text: "release = \"force\" has no effect: no stop that acts has a damping".to_owned(),
+    })
 }
 
 /// These parameters, as a remark is about them.
@@ -63,7 +74,12 @@ fn runaway(parameters: &Parameters) -> Option<Remark> {
 
 /// What cannot be computed, with the drive at `phase` at the section [rad].
 fn conflicts(parameters: &Parameters, phase: f64) -> Vec<Remark> {
-    let conflicts = [as_printed(parameters), long_edges(parameters), on_edge(parameters, phase)];
+    let conflicts = [
+        as_printed(parameters),
+        long_edges(parameters),
+        long_phases(parameters),
+        on_edge(parameters, phase),
+    ];
     conflicts.into_iter().flatten().collect()
 }
 
@@ -88,14 +104,35 @@ fn long_edges(parameters: &Parameters) -> Option<Remark> {
     })
 }
 
-/// That a section lies on an edge of the drive which other parameters move.
+/// That two of three phases leave none of the period for the third.
+fn long_phases(parameters: &Parameters) -> Option<Remark> {
+    let [first, second] = [Parameter::Share1, Parameter::Share2].map(|it| parameters[it]);
+    let is_long = parameters.shape().drive == DriveKind::ThreePhase && first + second >= 1.0;
+    is_long.then(|| Remark {
+        about: described(&[Parameter::Share1, Parameter::Share2]),
+        text: format!(
+            "share_1 = {first} with share_2 = {second}: together they must be below 1, as the third phase is what is left of the period"
+        ),
+    })
+}
+
+/// That a section lies on an edge of the drive which other parameters move, or at which the velocity jumps.
 fn on_edge(parameters: &Parameters, phase: f64) -> Option<Remark> {
     let edge = edge_at(parameters, phase)?;
+    let allowed = match parameters.shape().drive {
+        DriveKind::TwoPhase => {
+            "the velocities jump there: take another `section_phase`, as \"90 deg\""
+        }
+        _ => "only the edge at phase 0 may be a section, which is just before it",
+    };
+    let about = match parameters.shape().drive {
+        DriveKind::ThreePhase => [Parameter::Share1, Parameter::Share2],
+        _ => [Parameter::Duty, Parameter::Rise],
+    };
     Some(Remark {
-        about: described(&[Parameter::Duty, Parameter::Rise]),
+        about: described(&about),
         text: format!(
-            "the section at phase {phase} rad lies on the edge of the drive at {edge} of its period; only the edge at phase 0 may be a \
-             section, which is just before it"
+            "the section at phase {phase} rad lies on the edge of the drive at {edge} of its period; {allowed}"
         ),
     })
 }
@@ -106,7 +143,14 @@ fn member(parameters: &Parameters) -> Option<String> {
         return None;
     }
     let shape = parameters.shape();
-    let mut parts = vec![format!("{} drive", shape.drive.name())];
+    let drive = match shape.drive {
+        DriveKind::Prescribed => "prescribed relative motion of the mass".to_owned(),
+        DriveKind::TwoPhase | DriveKind::ThreePhase => {
+            format!("{} relative motion of the mass", shape.drive.name())
+        }
+        force => format!("{} drive", force.name()),
+    };
+    let mut parts = vec![drive];
     if shape.reaction == Reaction::Capsule {
         parts.push("its reaction on the capsule".to_owned());
     }
@@ -114,8 +158,10 @@ fn member(parameters: &Parameters) -> Option<String> {
         (shape.has(Parameter::Incline), "an incline"),
         (shape.has(Parameter::Load), "a load"),
         (shape.has_rear_stop(), "a rear stop"),
-        (shape.has(Parameter::PreloadGap), "a preloaded spring"),
+        (shape.is_rigid(), "a rigid stop"),
+        (shape.has(Parameter::PreloadGap) && !shape.drive.is_prescribed(), "a preloaded spring"),
         (shape.has_damped_stops(), "damped stops"),
+        (shape.releases_by_force(), "released by their force"),
         (shape.has_cubic_terms(), "cubic terms"),
         (shape.has_friction_by_direction(), "resistance by direction"),
         (shape.has_drag() && !shape.is_medium(), "drag beside friction"),

@@ -8,7 +8,7 @@ use super::parameter::Parameter;
 use super::resistance::{Resistance, Switching};
 use crate::description::Parameters;
 
-/// How the force on the mass depends on the phase of the drive.
+/// What moves the mass, by the phase of the drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DriveKind {
     /// `p_d cos(phase)`.
@@ -20,23 +20,36 @@ pub enum DriveKind {
     Trapezoid,
     /// `p_0 + p_d cos(phase) + p_2 cos(2 phase + phase_2)`.
     TwoHarmonics,
+    /// In place of a force, the relative displacement `r = xi_1 cos(phase) + xi_2 cos(2 phase + phase_2)`.
+    Prescribed,
+    /// The relative displacement goes from `-stroke / 2` to `stroke / 2` at one velocity for a share `duty` of the period, and back at
+    /// another.
+    TwoPhase,
+    /// The same with three relative accelerations in turn, each for its share of the period: up from relative rest, down, up to it.
+    ThreePhase,
 }
 
 impl DriveKind {
     /// Every kind by its name in studies and files, in the order of declaration.
-    pub const NAMES: [(&str, DriveKind); 4] = [
+    pub const NAMES: [(&str, DriveKind); 7] = [
         ("harmonic", DriveKind::Harmonic),
         ("square", DriveKind::Square),
         ("trapezoid", DriveKind::Trapezoid),
         ("two-harmonics", DriveKind::TwoHarmonics),
+        ("prescribed", DriveKind::Prescribed),
+        ("two-phase", DriveKind::TwoPhase),
+        ("three-phase", DriveKind::ThreePhase),
     ];
 
     /// Their names.
-    pub const OPTIONS: [&'static str; 4] = [
+    pub const OPTIONS: [&'static str; 7] = [
         DriveKind::NAMES[0].0,
         DriveKind::NAMES[1].0,
         DriveKind::NAMES[2].0,
         DriveKind::NAMES[3].0,
+        DriveKind::NAMES[4].0,
+        DriveKind::NAMES[5].0,
+        DriveKind::NAMES[6].0,
     ];
 
     /// Its name.
@@ -47,10 +60,59 @@ impl DriveKind {
     /// At how many phases of a cycle the force has an edge.
     pub const fn edges(self) -> usize {
         match self {
-            DriveKind::Harmonic | DriveKind::TwoHarmonics => 0,
-            DriveKind::Square => 2,
+            DriveKind::Harmonic | DriveKind::TwoHarmonics | DriveKind::Prescribed => 0,
+            DriveKind::Square | DriveKind::TwoPhase => 2,
+            DriveKind::ThreePhase => 3,
             DriveKind::Trapezoid => 4,
         }
+    }
+
+    /// Why a parameter has no effect beside it.
+    fn no_effect(self, parameter: Parameter) -> Option<String> {
+        let kinds: &[DriveKind] = match parameter {
+            Parameter::Pd => &DriveKind::FORCES,
+            Parameter::P0 => &DriveKind::FORCES[1..],
+            Parameter::PLow => &[DriveKind::Square, DriveKind::Trapezoid],
+            Parameter::Duty => &[DriveKind::Square, DriveKind::Trapezoid, DriveKind::TwoPhase],
+            Parameter::Rise => &[DriveKind::Trapezoid],
+            Parameter::P2 => &[DriveKind::TwoHarmonics],
+            Parameter::Phase2 => &[DriveKind::TwoHarmonics, DriveKind::Prescribed],
+            Parameter::Xi1 | Parameter::Xi2 => &[DriveKind::Prescribed],
+            Parameter::Stroke => &[DriveKind::TwoPhase, DriveKind::ThreePhase],
+            Parameter::Share1 | Parameter::Share2 => &[DriveKind::ThreePhase],
+            Parameter::K1
+            | Parameter::C
+            | Parameter::K2
+            | Parameter::Delta
+            | Parameter::PreloadGap
+            | Parameter::Restitution
+            | Parameter::K3
+            | Parameter::Delta3
+            | Parameter::K2Damping
+            | Parameter::K3Damping
+            | Parameter::K1Cubic
+            | Parameter::K2Cubic => {
+                let why = "the motion of the mass relative to the capsule is given";
+                return self.is_prescribed().then(|| why.to_owned());
+            }
+            _ => return None,
+        };
+        let names: Vec<String> = kinds.iter().map(|it| format!("`{}`", it.name())).collect();
+        let all = match &names[..] {
+            [one] => one.clone(),
+            [first @ .., last] => format!("{} and {last}", first.join(", ")),
+            [] => String::new(),
+        };
+        (!kinds.contains(&self)).then(|| format!("it belongs to {all}"))
+    }
+
+    /// The kinds that give a force.
+    const FORCES: [DriveKind; 4] =
+        [DriveKind::Harmonic, DriveKind::Square, DriveKind::Trapezoid, DriveKind::TwoHarmonics];
+
+    /// Whether it gives the motion of the mass relative to the capsule, not a force.
+    pub const fn is_prescribed(self) -> bool {
+        matches!(self, DriveKind::Prescribed | DriveKind::TwoPhase | DriveKind::ThreePhase)
     }
 }
 
@@ -78,6 +140,25 @@ impl Reaction {
     }
 }
 
+/// When the mass leaves a stop that damps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Release {
+    /// Where it passes the place at which it met the stop, whose force may pull it before.
+    #[default]
+    Geometry,
+    /// Where the force of the stop falls to zero.
+    Force,
+}
+
+impl Release {
+    /// Every one by its name in studies and files, in the order of declaration.
+    pub const NAMES: [(&str, Release); 2] =
+        [("geometry", Release::Geometry), ("force", Release::Force)];
+
+    /// Their names.
+    pub const OPTIONS: [&'static str; 2] = [Release::NAMES[0].0, Release::NAMES[1].0];
+}
+
 /// By which equations a capsule moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
@@ -98,6 +179,8 @@ pub struct Shape {
     pub drive: DriveKind,
     /// What takes up its reaction.
     pub reaction: Reaction,
+    /// When the mass leaves a stop that damps.
+    pub release: Release,
     /// The parameters that are given, of those that the equations have only then, as bits by their order.
     given: u64,
 }
@@ -105,13 +188,20 @@ pub struct Shape {
 impl Shape {
     /// That of a capsule with these parameters.
     pub fn of(parameters: &Parameters) -> Shape {
-        let [law, _, drive, reaction] = [0, 1, 2, 3].map(|choice| parameters.chosen(choice));
+        let [law, _, drive, reaction, release] =
+            [0, 1, 2, 3, 4].map(|choice| parameters.chosen(choice));
         Shape {
             law: Resistance::NAMES[law].1,
             drive: DriveKind::NAMES[drive].1,
             reaction: Reaction::NAMES[reaction].1,
+            release: Release::NAMES[release].1,
             given: parameters.given_places(),
         }
+    }
+
+    /// Whether the capsule takes up the reaction of what moves the mass, as it does of a prescribed relative motion.
+    pub fn reacts(self) -> bool {
+        self.reaction == Reaction::Capsule || self.drive.is_prescribed()
     }
 
     /// The frequency of the drive [rad/s].
@@ -139,12 +229,13 @@ impl Shape {
 
     /// Whether there may be a rear stop.
     pub fn has_rear_stop(self) -> bool {
-        self.has_any(&[Parameter::K3, Parameter::K3Damping])
+        !self.drive.is_prescribed() && self.has_any(&[Parameter::K3, Parameter::K3Damping])
     }
 
     /// Whether a spring or a stop may have a cubic term.
     pub fn has_cubic_terms(self) -> bool {
-        self.has_any(&[Parameter::K1Cubic, Parameter::K2Cubic])
+        let of_stop = self.has(Parameter::K2Cubic) && !self.has(Parameter::Restitution);
+        !self.drive.is_prescribed() && (self.has(Parameter::K1Cubic) || of_stop)
     }
 
     /// Whether the ground may resist by a drag.
@@ -171,15 +262,26 @@ impl Shape {
 
     /// Whether a stop may damp.
     pub fn has_damped_stops(self) -> bool {
-        self.has_any(&[Parameter::K2Damping, Parameter::K3Damping])
+        let of_front = self.has(Parameter::K2Damping) && !self.has(Parameter::Restitution);
+        !self.drive.is_prescribed() && (self.has(Parameter::K3Damping) || of_front)
+    }
+
+    /// Whether the front stop is rigid.
+    pub const fn is_rigid(self) -> bool {
+        self.has(Parameter::Restitution) && !self.drive.is_prescribed()
+    }
+
+    /// Whether the mass leaves a stop where its force falls to zero, which without damping is where it met it.
+    pub fn releases_by_force(self) -> bool {
+        self.release == Release::Force && self.has_damped_stops()
     }
 
     /// Why a parameter has no effect, as what follows "has no effect"; none where it has one.
     pub fn no_effect(self, parameter: Parameter) -> Option<String> {
         let of_friction = |why: &str| Some(format!("under the law `{}`: {why}", self.law.name()));
-        let of_drive = |kinds: &str| {
-            Some(format!("with the drive `{}`: it belongs to {kinds}", self.drive.name()))
-        };
+        if let Some(why) = self.drive.no_effect(parameter) {
+            return Some(format!("with the drive `{}`: {why}", self.drive.name()));
+        }
         match (parameter, self.law, self.drive) {
             (
                 Parameter::MuS
@@ -196,20 +298,18 @@ impl Shape {
             (Parameter::Vs | Parameter::Stribeck, Resistance::Coulomb, _) => {
                 of_friction("friction under this law does not depend on speed")
             }
-            (Parameter::Duty | Parameter::PLow, _, kind) if kind.edges() == 0 => {
-                of_drive("`square` and `trapezoid`")
-            }
-            (Parameter::Rise, _, kind) if kind != DriveKind::Trapezoid => of_drive("`trapezoid`"),
-            (Parameter::P2 | Parameter::Phase2, _, kind) if kind != DriveKind::TwoHarmonics => {
-                of_drive("`two-harmonics`")
-            }
-            (Parameter::P0, _, DriveKind::Harmonic) => {
-                of_drive("`square`, `trapezoid` and `two-harmonics`")
-            }
             (Parameter::C1 | Parameter::C2, law, _)
                 if law != Resistance::Medium && !self.has(parameter) =>
             {
                 of_friction("it is not given, and there is no drag beside friction")
+            }
+            (Parameter::K2 | Parameter::K2Damping | Parameter::K2Cubic, _, _)
+                if self.is_rigid() =>
+            {
+                Some("beside `restitution`, which makes the stop rigid".to_owned())
+            }
+            (Parameter::Delta3, _, _) if !self.has_rear_stop() => {
+                Some("without `k3` or `k3_damping`: there is no rear stop".to_owned())
             }
             (Parameter::Omega, _, _) if self.has(Parameter::Period) => {
                 Some("beside `drive_period`, which tells the frequency".to_owned())

@@ -34,7 +34,7 @@ pub struct Sample {
     pub impacts: u64,
 }
 
-/// An event with its time since the start [s] and the state there, which it does not change.
+/// An event with its time since the start [s] and the state there, before a jump of the velocities.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Event {
     /// When [s].

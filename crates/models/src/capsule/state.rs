@@ -119,6 +119,12 @@ impl Event for EventKind {
     }
 }
 
+/// Where the event of this code is of a kind.
+#[inline(always)]
+pub(in crate::capsule) fn is_event<L: Lane>(code: L, kind: EventKind) -> L::Mask {
+    (code - kind.code()).abs().lt(L::splat(0.5))
+}
+
 /// Taylor series of a step of the capsule, in the time since its start.
 #[derive(Debug, Clone)]
 pub struct Jet<L> {

@@ -14,7 +14,7 @@ use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::printed::PrintedCapsule;
 use super::regime::PrintedMode;
-use super::shape::Shape;
+use super::shape::{DriveKind, Shape};
 use super::state::{EventKind, State};
 use crate::description::{Parameters, Presence};
 
@@ -190,6 +190,13 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
     /// Amplitude of the velocity of the mass while nothing slips or touches [m/s].
     fn expected_size(&self) -> f64 {
         let (p_d, omega) = (self.parameters[Parameter::Pd], self.parameters.frequency());
+        let [stroke, first, second] =
+            [Parameter::Stroke, Parameter::Xi1, Parameter::Xi2].map(|it| self.parameters[it].abs());
+        match self.parameters.shape().drive {
+            DriveKind::Prescribed => return omega * (first + second),
+            DriveKind::TwoPhase | DriveKind::ThreePhase => return omega * stroke,
+            _ => {}
+        }
         let [k1, m1, c] =
             [Parameter::K1, Parameter::M1, Parameter::C].map(|it| self.parameters[it]);
         let spring = k1 - m1 * omega * omega;

@@ -71,8 +71,10 @@ impl Description {
     fn faults_of_roles(&self) -> Vec<String> {
         let roles = &self.roles;
         let drive = roles.drive.iter().flat_map(|it| [it.frequency, it.amplitude]);
-        let parameters =
-            drive.chain(roles.impact_surface).chain(roles.natural.into_iter().flatten());
+        let parameters = drive
+            .chain(roles.impact_surface)
+            .chain(roles.rear_surface)
+            .chain(roles.natural.into_iter().flatten());
         let trade_off = roles.trade_off.iter().flat_map(|it| {
             [it.speed, it.work, it.power, it.energy_per_distance]
                 .into_iter()

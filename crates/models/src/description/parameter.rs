@@ -20,6 +20,8 @@ pub struct ParameterDescription {
     pub is_asked_for: bool,
     /// Where the equations have it, and where it is told of.
     pub presence: Presence,
+    /// The place of the parameter in whose stead it is given, if there is one.
+    pub replaces: Option<usize>,
 }
 
 /// Where the equations of a model have a parameter, and where it is told of.
@@ -95,6 +97,16 @@ impl Parameter {
     /// Whether a study has to say what it is.
     pub fn is_asked_for(self) -> bool {
         self.described().is_asked_for
+    }
+
+    /// The parameter in whose stead it is given, if there is one.
+    pub fn replaces(self) -> Option<Parameter> {
+        self.described().replaces.map(|index| Parameter::of(self.model, index))
+    }
+
+    /// Those that may be given in its stead.
+    pub fn replaced_by(self) -> impl Iterator<Item = Parameter> {
+        self.model.parameters().filter(move |it| it.replaces() == Some(self))
     }
 
     /// Where the equations have it, and where it is told of.

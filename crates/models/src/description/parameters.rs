@@ -80,9 +80,10 @@ impl Parameters {
         self.each().filter(|(it, _)| self.states(*it))
     }
 
-    /// Whether there is something to tell of a parameter: one that is optional has to be given.
+    /// Whether there is something to tell of a parameter: one that is optional has to be given, and none in the stead of another.
     pub fn states(&self, parameter: Parameter) -> bool {
-        parameter.presence() != Presence::Optional || self.is_given(parameter)
+        let is_there = parameter.presence() != Presence::Optional || self.is_given(parameter);
+        is_there && !parameter.replaced_by().any(|it| self.is_given(it))
     }
 
     /// Whether a parameter that the equations have only where it is given has been given.
@@ -107,6 +108,9 @@ impl Parameters {
         let place = place(self.model, parameter);
         self.values[place] = other[parameter];
         self.given = (self.given & !(1 << place)) | (other.given & (1 << place));
+        if let Some(replaced) = parameter.replaces().filter(|_| other.is_given(parameter)) {
+            self.values[replaced.index()] = other[replaced];
+        }
     }
 
     /// What is chosen otherwise than usual, each by its name with the name of what is chosen.
@@ -171,8 +175,13 @@ impl<P: Into<Parameter>> Index<P> for Parameters {
 impl<P: Into<Parameter>> IndexMut<P> for Parameters {
     fn index_mut(&mut self, parameter: P) -> &mut f64 {
         let place = place(self.model, parameter.into());
-        if self.model.parameters[place].presence != Presence::Always {
+        let described = &self.model.parameters[place];
+        if described.presence != Presence::Always {
             self.given |= 1 << place;
+        }
+        // What it stands in place of has no value of its own any more.
+        if let Some(replaced) = described.replaces {
+            self.values[replaced] = self.model.parameters[replaced].default;
         }
         &mut self.values[place]
     }

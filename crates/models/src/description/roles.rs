@@ -9,6 +9,8 @@ pub struct Roles {
     pub drive: Option<DriveRoles>,
     /// The value of the first coordinate on the surface of impacts, if there is one: a parameter.
     pub impact_surface: Option<usize>,
+    /// Minus its value on the surface of a stop on the other side, if there may be one: a parameter.
+    pub rear_surface: Option<usize>,
     /// A stiffness and a mass, whose natural frequency figures take as a unit, if there is one: parameters.
     pub natural: Option<[usize; 2]>,
     /// What a motion gains and costs, if it gains anything.
@@ -128,6 +130,13 @@ impl Description {
     /// The value of the first coordinate on the surface of impacts, if there is one.
     pub fn impact_surface(&'static self) -> Option<Parameter> {
         self.roles.impact_surface.map(|index| Parameter::of(self, index))
+    }
+
+    /// The parameters of the surfaces of impacts, each with the side of the first coordinate on which its stop is, 1 or -1: the surface is
+    /// where that coordinate is the parameter times the side.
+    pub fn surfaces(&'static self) -> impl Iterator<Item = (Parameter, f64)> {
+        let sides = [(self.roles.impact_surface, 1.0), (self.roles.rear_surface, -1.0)];
+        sides.into_iter().filter_map(move |(index, side)| Some((Parameter::of(self, index?), side)))
     }
 
     /// A stiffness and a mass, whose natural frequency figures take as a unit, if there is one.

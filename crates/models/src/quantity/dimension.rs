@@ -107,6 +107,8 @@ pub enum Allowed {
     Positive,
     /// Above 0 and below 1.
     Share,
+    /// From 0 to 1.
+    UpToOne,
     /// Above -pi/2 and below pi/2, an angle.
     Slope,
 }
@@ -120,6 +122,7 @@ impl Allowed {
                 Allowed::NonNegative => value >= 0.0,
                 Allowed::Positive => value > 0.0,
                 Allowed::Share => value > 0.0 && value < 1.0,
+                Allowed::UpToOne => (0.0..=1.0).contains(&value),
                 Allowed::Slope => value.abs() < FRAC_PI_2,
             }
     }
@@ -132,6 +135,7 @@ impl fmt::Display for Allowed {
             Allowed::NonNegative => "a finite number, zero or above",
             Allowed::Positive => "a finite number above zero",
             Allowed::Share => "a number above 0 and below 1",
+            Allowed::UpToOne => "a number from 0 to 1",
             Allowed::Slope => "an angle above -90 deg and below 90 deg",
         })
     }

@@ -22,6 +22,7 @@ static OTHER: Description = Description {
         default: 2.0,
         is_asked_for: false,
         presence: Presence::Always,
+        replaces: None,
     }],
     choices: &[],
     coordinates: &[],

@@ -31,6 +31,7 @@ const fn parameter(name: &'static str, default: f64) -> ParameterDescription {
         default,
         is_asked_for: true,
         presence: Presence::Always,
+        replaces: None,
     }
 }
 
@@ -53,7 +54,13 @@ static WRONG: Description = Description {
     end: &[number("end_x"), number("end_v")],
     motion: MotionDescription { events: &["impact"], ..MotionDescription::NONE },
     outputs: CAPSULE.outputs,
-    roles: Roles { drive: None, impact_surface: None, natural: None, ..CAPSULE.roles },
+    roles: Roles {
+        drive: None,
+        impact_surface: None,
+        rear_surface: None,
+        natural: None,
+        ..CAPSULE.roles
+    },
     rules: Rules::NONE,
 };
 

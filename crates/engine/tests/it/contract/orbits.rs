@@ -12,7 +12,7 @@ use super::subject::{Subject, count};
 /// Periods that an orbit is followed.
 const PERIODS: usize = 50;
 /// Sizes of pushes, relative to the motion: the answer is compared in the limit of small ones.
-const PUSHES: [f64; 3] = [1e-5, 1e-6, 1e-7];
+const PUSHES: [f64; 4] = [1e-5, 1e-6, 1e-7, 1e-8];
 
 /// A periodic orbit and what it is called.
 struct Certified<'a, M, const D: usize> {
@@ -93,18 +93,27 @@ impl<M: Subject<D>, const D: usize> Certified<'_, M, D> {
         }
     }
 
-    /// A push of this size in a random direction.
+    /// A push of this size in a random direction in which there is something.
     fn direction(&self, random: &mut Random, push: f64) -> [f64; D] {
-        std::array::from_fn(|i| {
+        let push = std::array::from_fn(|i| {
             random.uniform(-1.0, 1.0) * push * self.size / self.metric.scales[i]
-        })
+        });
+        if self.may_be_pushed(&push) { push } else { push.map(|x| -x) }
+    }
+
+    fn may_be_pushed(&self, push: &[f64; D]) -> bool {
+        self.system.may_start(&self.pushed(push))
+    }
+
+    fn pushed(&self, push: &[f64; D]) -> [f64; D] {
+        std::array::from_fn(|i| self.point[i] + push[i])
     }
 
     /// How a push goes on: differences from the orbit, period by period.
     fn answers(&self, push: &[f64; D], periods: usize) -> Vec<[f64; D]> {
-        let pushed = std::array::from_fn(|i| self.point[i] + push[i]);
         let span = (self.period, periods);
-        let [still, moved] = [self.point, pushed].map(|point| followed(self.system, point, span));
+        let [still, moved] =
+            [self.point, self.pushed(push)].map(|point| followed(self.system, point, span));
         let differences = moved.iter().zip(&still);
         differences.map(|(a, b)| std::array::from_fn(|i| a[i] - b[i])).collect()
     }
@@ -117,6 +126,7 @@ impl<M: Subject<D>, const D: usize> Certified<'_, M, D> {
         let coefficients = polynomial(&self.multipliers);
         let pushes = PUSHES.map(|push| self.direction(random, push));
         let pushes = pushes.iter().flat_map(|push| [*push, push.map(|x| -x)]);
+        let pushes = pushes.filter(|push| self.may_be_pushed(push));
         let misses = pushes.map(|push| {
             let answers = self.answers(&push, D);
             let sum = std::array::from_fn(|i| {

@@ -16,6 +16,11 @@ pub trait Subject<const D: usize>: System<D> {
         Self::draws(count, seed)
     }
 
+    /// Whether a motion may start at a point of the section.
+    fn may_start(&self, _point: &[f64; D]) -> bool {
+        true
+    }
+
     /// The size of the numbers that guard `which` is a small difference of, in the unit of the guard.
     fn terms(&self, which: usize, mode: &Self::Mode<f64>, state: &Self::State<f64>) -> f64;
 }

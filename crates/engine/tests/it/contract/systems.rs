@@ -151,6 +151,11 @@ impl<R: Drawn> Subject<3> for CapsuleSystem<R> {
         R::rich(count, seed).iter().map(|case| case.read()).collect()
     }
 
+    /// Nothing is behind a rigid stop.
+    fn may_start(&self, [r, ..]: &[f64; 3]) -> bool {
+        !self.parameters.shape().is_rigid() || *r <= self.parameters[Parameter::Delta]
+    }
+
     fn terms(&self, which: usize, _mode: &R::Mode<f64>, state: &State<f64>) -> f64 {
         R::terms(&self.parameters, which, state)
     }

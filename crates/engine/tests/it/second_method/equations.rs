@@ -14,6 +14,8 @@ pub(super) struct Second<'a> {
     pub(super) phase: f64,
     /// Whether the front stop and the rear stop are touched.
     pub(super) touched: [bool; 2],
+    /// Whether the mass is beyond the place of a stop that has let go of it.
+    pub(super) let_go: [bool; 2],
     /// Direction of sliding, 0 at rest.
     pub(super) slip: f64,
     /// The force of the drive between two of its edges.
@@ -96,7 +98,12 @@ impl Second<'_> {
         let (duty, rise) = (self.of(Parameter::Duty), self.of(Parameter::Rise));
         let steep = (high - low) / rise;
         match self.p.shape().drive {
-            DriveKind::Harmonic | DriveKind::TwoHarmonics => Vec::new(),
+            DriveKind::Harmonic | DriveKind::TwoHarmonics | DriveKind::Prescribed => Vec::new(),
+            DriveKind::TwoPhase => {
+                let stroke = self.of(Parameter::Stroke);
+                vec![(0.0, [stroke / duty, 0.0]), (duty, [-stroke / (1.0 - duty), 0.0])]
+            }
+            DriveKind::ThreePhase => self.three_phases(),
             DriveKind::Square => vec![(0.0, [high, 0.0]), (duty, [low, 0.0])],
             DriveKind::Trapezoid => vec![
                 (0.0, [low, steep]),
@@ -141,13 +148,55 @@ impl Second<'_> {
             DriveKind::Square | DriveKind::Trapezoid => {
                 self.line.from + self.line.rate * (t - self.line.begins)
             }
+            _ => unreachable!("the drive gives no force"),
         }
+    }
+
+    /// Whether the motion of the mass relative to the capsule is prescribed.
+    pub(super) fn is_prescribed(&self) -> bool {
+        self.p.shape().drive.is_prescribed()
+    }
+
+    /// The velocity of a prescribed motion and its rate; in phases, those of the line.
+    pub(super) fn prescribed(&self, t: f64) -> [f64; 2] {
+        let period = 2.0 * PI / self.omega();
+        if self.p.shape().drive != DriveKind::Prescribed {
+            let speed = self.line.from + self.line.rate * (t - self.line.begins);
+            return [speed / period, self.line.rate / period];
+        }
+        let (omega, angle) = (self.omega(), self.omega() * t + self.phase);
+        let second = 2.0 * angle + self.of(Parameter::Phase2);
+        let [xi_1, xi_2] = [Parameter::Xi1, Parameter::Xi2].map(|it| self.of(it));
+        [
+            -omega * (xi_1 * libm::sin(angle) + 2.0 * xi_2 * libm::sin(second)),
+            -omega * omega * (xi_1 * libm::cos(angle) + 4.0 * xi_2 * libm::cos(second)),
+        ]
+    }
+
+    /// Three phases over a turn: accelerations w_i over shares s_i about the times m_i with sum w_i s_i = sum w_i s_i m_i = 0 are in the
+    /// ratios of (m_3 - m_2)/s_1, (m_1 - m_3)/s_2 and (m_2 - m_1)/s_3, and their size is that of the stroke.
+    fn three_phases(&self) -> Vec<(f64, [f64; 2])> {
+        let (first, second) = (self.of(Parameter::Share1), self.of(Parameter::Share2));
+        let third = 1.0 - first - second;
+        let middles = [0.5 * first, first + 0.5 * second, 1.0 - 0.5 * third];
+        let up = (middles[2] - middles[1]) / first;
+        let down = (middles[0] - middles[2]) / second;
+        let end = (middles[1] - middles[0]) / third;
+        let speed = up * first;
+        let stroke = 0.5 * up * first * first - 0.5 * speed * speed / down;
+        let size = self.of(Parameter::Stroke) / stroke;
+        vec![
+            (0.0, [0.0, size * up]),
+            (first, [size * speed, size * down]),
+            (first + second, [-size * end * third, size * end]),
+        ]
     }
 
     /// How deep the mass is in the front stop (0) or in the rear stop (1).
     pub(super) fn depth(&self, stop: usize, state: &Vector) -> f64 {
         let has_rear = [Parameter::K3, Parameter::K3Damping].map(|it| self.p.is_given(it.into()));
         match stop {
+            _ if self.is_prescribed() => -1.0,
             0 => state[0] - self.of(Parameter::Delta),
             _ if has_rear.contains(&true) => -state[0] - self.part(Parameter::Delta3),
             _ => -1.0,
@@ -155,26 +204,75 @@ impl Second<'_> {
     }
 
     pub(super) fn force(&self, state: &Vector) -> f64 {
+        if self.is_prescribed() {
+            return 0.0;
+        }
         let [r, y1, _, y2] = *state;
         let relative = y1 - y2;
         let mut force = self.of(Parameter::K1) * (r + self.part(Parameter::PreloadGap))
             + self.part(Parameter::K1Cubic) * r * r * r
             + self.of(Parameter::C) * relative;
-        if self.touched[0] {
-            let depth = self.depth(0, state);
-            force += self.of(Parameter::K2) * depth
-                + self.part(Parameter::K2Cubic) * depth * depth * depth
-                + self.part(Parameter::K2Damping) * relative;
+        if self.touched[0] && !self.is_rigid() {
+            force += self.pressing(0, state);
         }
         if self.touched[1] {
-            force += -self.part(Parameter::K3) * self.depth(1, state)
-                + self.part(Parameter::K3Damping) * relative;
+            force -= self.pressing(1, state);
         }
         force
     }
 
+    /// How hard a stop that is touched pushes the mass away; a damped one may pull.
+    pub(super) fn pressing(&self, stop: usize, state: &Vector) -> f64 {
+        let depth = self.depth(stop, state);
+        let deeper = state[1] - state[3];
+        match stop {
+            0 => {
+                self.of(Parameter::K2) * depth
+                    + self.part(Parameter::K2Cubic) * depth * depth * depth
+                    + self.part(Parameter::K2Damping) * deeper
+            }
+            _ => self.part(Parameter::K3) * depth - self.part(Parameter::K3Damping) * deeper,
+        }
+    }
+
+    /// Whether the front stop is rigid.
+    pub(super) fn is_rigid(&self) -> bool {
+        self.p.shape().is_rigid()
+    }
+
+    /// Whether the mass stays at the rigid stop.
+    pub(super) fn is_at_stop(&self) -> bool {
+        self.is_rigid() && self.touched[0]
+    }
+
+    /// Whether stops are left where their force falls to zero.
+    pub(super) fn releases_by_force(&self) -> bool {
+        self.p.shape().releases_by_force()
+    }
+
+    /// What moves mass and capsule together but for the friction.
+    fn common(&self, t: f64) -> f64 {
+        let reacts = self.p.shape().reaction == Reaction::Capsule;
+        let drive = if reacts { 0.0 } else { self.drive(t) };
+        drive + self.along().iter().sum::<f64>()
+    }
+
+    /// The force of a rigid stop on a mass that stays at it, against the mass.
+    pub(super) fn bearing(&self, t: f64, state: &Vector) -> f64 {
+        let acceleration = self.rates(t, state)[3];
+        let on_mass = self.drive(t) - self.force(state) + self.along()[1];
+        on_mass - self.of(Parameter::M1) * acceleration
+    }
+
     /// What moves the capsule but for the friction.
     pub(super) fn push(&self, t: f64, state: &Vector) -> f64 {
+        if self.is_prescribed() {
+            let [_, acceleration] = self.prescribed(t);
+            return self.along().iter().sum::<f64>() - self.of(Parameter::M1) * acceleration;
+        }
+        if self.is_at_stop() {
+            return self.common(t);
+        }
         let reacts = self.p.shape().reaction == Reaction::Capsule;
         let reaction = if reacts { self.drive(t) } else { 0.0 };
         self.force(state) - reaction + self.along()[0]
@@ -208,12 +306,26 @@ impl Second<'_> {
 
     pub(super) fn rates(&self, t: f64, state: &Vector) -> Vector {
         let [_, y1, _, y2] = *state;
+        if self.is_prescribed() {
+            let [speed, acceleration] = self.prescribed(t);
+            let moves = self.push(t, state) - self.resistance(y2);
+            let total = self.of(Parameter::M1) + self.of(Parameter::M2);
+            let own = if self.slip == 0.0 { 0.0 } else { moves / total };
+            return [speed, own + acceleration, if self.slip == 0.0 { 0.0 } else { y2 }, own];
+        }
         let on_mass = self.drive(t) - self.force(state) + self.along()[1];
         let acceleration = on_mass / self.of(Parameter::M1);
+        if self.slip == 0.0 && self.is_at_stop() {
+            return [0.0; 4];
+        }
         if self.slip == 0.0 {
             return [y1, acceleration, 0.0, 0.0];
         }
         let moves = self.push(t, state) - self.resistance(y2);
+        if self.is_at_stop() {
+            let acceleration = moves / (self.of(Parameter::M1) + self.of(Parameter::M2));
+            return [0.0, acceleration, y2, acceleration];
+        }
         [y1 - y2, acceleration, y2, moves / self.of(Parameter::M2)]
     }
 }

@@ -7,7 +7,7 @@ use capsulemap_engine::lane::Lane;
 use super::drive::mean_and_largest;
 use super::ground::Ground;
 use crate::capsule::parameter::Parameter;
-use crate::capsule::shape::{Reaction, Shape};
+use crate::capsule::shape::Shape;
 use crate::description::Parameters;
 
 /// A capsule whose mean force is not held runs away at the speed that all forces together would give it in so many cycles.
@@ -45,9 +45,9 @@ impl<L: Lane> Balance<L> {
     pub fn new(of: impl Fn(Parameter) -> L, shape: Shape) -> Self {
         let (zero, far) = (L::splat(0.0), L::splat(f64::INFINITY));
         let ground = Ground::new(&of, shape);
-        let [mean_drive, largest_drive] = mean_and_largest(&of, shape.drive);
+        let [mean_drive, largest_drive] = mean_and_largest(&of, shape);
         let along = ground.push + ground.pull;
-        let external = if shape.reaction == Reaction::Capsule { zero } else { mean_drive };
+        let external = if shape.reacts() { zero } else { mean_drive };
         let mean = external + along;
         let against = ground.towards(mean);
         let drag = if shape.has_drag() { against.linear + against.quadratic } else { zero };

@@ -8,54 +8,56 @@ use super::balance::Balance;
 use super::drive::PiecewiseDrive;
 use super::ground::Ground;
 use super::springs::Springs;
-use super::state::{GeneralJet, GeneralMode};
+use super::state::{BACKWARD, EDGE, FRONT, FRONT_FORCE, GeneralJet, GeneralMode, REAR, REAR_FORCE};
 use crate::capsule::drag::Drag;
 use crate::capsule::parameter::Parameter;
-use crate::capsule::shape::{Reaction, Shape};
+use crate::capsule::shape::Shape;
 use crate::capsule::state::{EventKind, State};
-
-/// Guard of the drive, the time until its next edge.
-pub(super) const EDGE: usize = 0;
-/// Guard of the front stop, `r - delta` while it is touched and `delta - r` apart from it.
-pub(super) const FRONT: usize = 1;
-/// Guard of the rear stop, `-delta_3 - r` while it is touched and `r + delta_3` apart from it.
-pub(super) const REAR: usize = 2;
-/// Guard of sliding, the speed; at rest, how far the push is below the break-away force.
-pub(super) const FORWARD: usize = 3;
-/// At rest, how far the push is above minus the break-away force of backward motion.
-pub(super) const BACKWARD: usize = 4;
 
 /// A capsule of the family with one set of parameters per lane.
 ///
 /// Equations: m1 y1' = P - F - m1 g sin(alpha), m2 y2' = F - rho P - f - m2 g sin(alpha) + F_ext, the friction f set-valued at rest.
 #[derive(Debug, Clone, Copy)]
 pub struct GeneralCapsule<L: Lane> {
+    pub(super) m1: L,
     pub(super) inverse_m1: L,
     pub(super) inverse_m2: L,
+    /// m1 / (m1 + m2) and m2 / (m1 + m2).
+    pub(super) share_of_mass: L,
+    pub(super) share_of_capsule: L,
     pub(super) drive: PiecewiseDrive<L>,
     pub(super) springs: Springs<L>,
     pub(super) ground: Ground<L>,
     /// Whether the capsule takes up the reaction of the drive: rho = 1.
     pub(super) reacts: bool,
+    /// What the largest force of the drive makes of the velocity of the mass within a radian of its phase [m/s].
+    pub(super) usual_speed: L,
     /// The mean force along the ground, forward positive [N].
     mean_force: L,
     /// The speed at which the capsule has run away in its direction; infinite where that force is held [m/s].
     runaway_speed: L,
 }
 
-side_by_side!(GeneralCapsule { inverse_m1, inverse_m2, mean_force, runaway_speed } with { drive, springs, ground } alike { reacts });
+side_by_side!(GeneralCapsule {
+    m1, inverse_m1, inverse_m2, share_of_mass, share_of_capsule, usual_speed, mean_force, runaway_speed
+} with { drive, springs, ground } alike { reacts });
 
 impl<L: Lane> GeneralCapsule<L> {
     /// The capsule with these parameters, whose drive is at `phase` at the section [rad].
     pub fn new(of: impl Fn(Parameter) -> L, shape: Shape, phase: f64) -> Self {
         let balance = Balance::new(&of, shape);
+        let [m1, m2] = [of(Parameter::M1), of(Parameter::M2)];
         GeneralCapsule {
-            inverse_m1: L::splat(1.0) / of(Parameter::M1),
-            inverse_m2: L::splat(1.0) / of(Parameter::M2),
+            m1,
+            inverse_m1: L::splat(1.0) / m1,
+            inverse_m2: L::splat(1.0) / m2,
+            share_of_mass: m1 / (m1 + m2),
+            share_of_capsule: m2 / (m1 + m2),
             drive: PiecewiseDrive::new(&of, shape, phase),
             springs: Springs::new(&of, shape),
             ground: Ground::new(&of, shape),
-            reacts: shape.reaction == Reaction::Capsule,
+            reacts: shape.reacts(),
+            usual_speed: balance.largest_drive / (m1 * shape.frequency(&of)),
             mean_force: balance.mean,
             runaway_speed: balance.runaway_speed(&of, shape),
         }
@@ -64,6 +66,9 @@ impl<L: Lane> GeneralCapsule<L> {
     /// What moves the capsule but for the friction, in a state at a time [N].
     #[inline(always)]
     pub(super) fn push(&self, mode: &GeneralMode<L>, time: L, state: &State<L>) -> L {
+        if self.drive.is_prescribed() {
+            return self.push_of_prescribed(mode, time);
+        }
         let push = self.springs.force(&mode.touched(), state) + self.ground.push;
         match self.reacts {
             true => push - self.drive.force_at(mode.passed, time),
@@ -90,6 +95,34 @@ impl<L: Lane> GeneralCapsule<L> {
         self.springs.begin_squares(state.r, &mut jet.squares);
     }
 
+    /// Writes the terms of the motion of the capsule that follow from term `k` of what moves it and of its speed.
+    #[inline(always)]
+    pub(super) fn write_capsule_term(
+        &self,
+        mode: &GeneralMode<L>,
+        any_slides: bool,
+        drag: &Drag<L>,
+        inverse_mass: L,
+        jet: &mut GeneralJet<L>,
+        k: usize,
+    ) {
+        let (zero, per) = (L::splat(0.0), L::Plain::splat(series::INVERSE[k + 1]));
+        let motion = &mut jet.motion;
+        if !any_slides {
+            motion.acceleration[k] = zero;
+            (motion.y2[k + 1], motion.x2[k + 1], motion.decay[k + 1]) = (zero, zero, zero);
+            return;
+        }
+        let of_speed = [&motion.decay, &motion.y2];
+        let friction = self.ground.force_term(drag, mode.slip, of_speed, k);
+        let moves = (jet.push[k] - friction) * inverse_mass;
+        motion.acceleration[k] = L::select(mode.slides(), moves, zero);
+        motion.y2[k + 1] = motion.acceleration[k].scaled(per);
+        motion.x2[k + 1] = motion.y2[k].scaled(per);
+        drag.write_exponent_term(mode.slip, motion, k + 1);
+        motion.decay[k + 1] = drag.decay_term(mode.slip, motion, k);
+    }
+
     /// Writes term `k` of the forces between mass and capsule, and of what moves the capsule.
     #[inline(always)]
     fn write_forces(
@@ -100,7 +133,11 @@ impl<L: Lane> GeneralCapsule<L> {
         k: usize,
     ) {
         let motion = &mut jet.motion;
-        let relative = motion.y1[k] - motion.y2[k];
+        let mut relative = motion.y1[k] - motion.y2[k];
+        if k == 1 && self.springs.is_rigid {
+            let state = motion.beginning();
+            relative = L::select(self.leaves_now(mode, &state), L::splat(0.0), relative);
+        }
         jet.relative[k] = relative;
         if k > 0 {
             let linear = slopes.0 * motion.r[k] + slopes.1 * relative;
@@ -108,80 +145,15 @@ impl<L: Lane> GeneralCapsule<L> {
             motion.force[k] =
                 linear + self.springs.cubic_term(&touched, &motion.r, &mut jet.squares, k);
         }
-        let constant = if k == 0 { self.ground.push } else { L::splat(0.0) };
-        let push = motion.force[k] + constant;
+        let (zero, is_first) = (L::splat(0.0), k == 0);
+        let push = motion.force[k] + if is_first { self.ground.push } else { zero };
         jet.push[k] = if self.reacts { push - jet.drive[k] } else { push };
-    }
-
-    /// Writes a guard in numbers of another kind, `of` those here.
-    #[inline(always)]
-    pub(super) fn write_guard<G: Lane<Mask = L::Mask, Plain = L::Plain>>(
-        &self,
-        which: usize,
-        mode: &GeneralMode<L>,
-        jet: &GeneralJet<L>,
-        of: impl Fn(L) -> G,
-        guard: &mut Series<G>,
-    ) {
-        match which {
-            EDGE => {
-                *guard = series::zero();
-                (guard[0], guard[1]) = (of(jet.until_edge), G::splat(-1.0));
-            }
-            FRONT => write_stop(mode.front, of(self.springs.front.at), 1.0, jet, of, guard),
-            REAR => write_stop(mode.rear, of(self.springs.rear.at), -1.0, jet, of, guard),
-            _ => self.write_slip(which, mode, jet, of, guard),
+        if self.springs.is_rigid {
+            let along = if is_first { self.ground.push + self.ground.pull } else { zero };
+            let common = if self.reacts { along } else { jet.drive[k] + along };
+            jet.push[k] = L::select(mode.front, common, jet.push[k]);
         }
     }
-
-    /// Writes one of the guards of the ground.
-    #[inline(always)]
-    fn write_slip<G: Lane<Mask = L::Mask, Plain = L::Plain>>(
-        &self,
-        which: usize,
-        mode: &GeneralMode<L>,
-        jet: &GeneralJet<L>,
-        of: impl Fn(L) -> G,
-        guard: &mut Series<G>,
-    ) {
-        let (zero, one) = (L::Plain::splat(0.0), L::Plain::splat(1.0));
-        let (side, limit) = match which {
-            FORWARD => (-one, self.ground.forward.break_away),
-            _ => (one, self.ground.backward.break_away),
-        };
-        let slides = mode.slides();
-        let factor = L::Plain::select(slides, mode.slip.plain(), side);
-        for (term, (push, y2)) in guard.iter_mut().zip(jet.push.iter().zip(&jet.motion.y2)) {
-            *term = G::select(slides, of(*y2), of(*push)).scaled(factor);
-        }
-        guard[0] = guard[0] + G::select(slides, G::from_plain(zero), of(limit));
-        // A capsule that is thrown leaves at once, at the time of the jump.
-        let thrown = (mode.thrown.plain() + side).abs().lt(L::Plain::splat(0.5));
-        if thrown.any() {
-            for (k, term) in guard.iter_mut().enumerate() {
-                let falls = G::splat(if k == 1 { -1.0 } else { 0.0 });
-                *term = G::select(thrown, falls, *term);
-            }
-        }
-    }
-}
-
-/// Writes the guard of a stop at `at`, which the mass meets in the direction `side` of r.
-#[inline(always)]
-fn write_stop<L: Lane, G: Lane<Mask = L::Mask, Plain = L::Plain>>(
-    touched: L::Mask,
-    at: G,
-    side: f64,
-    jet: &GeneralJet<L>,
-    of: impl Fn(L) -> G,
-    guard: &mut Series<G>,
-) {
-    let side = L::Plain::splat(side);
-    let side = L::Plain::select(touched, side, -side);
-    for (term, r) in guard.iter_mut().zip(&jet.motion.r) {
-        *term = of(*r).scaled(side);
-    }
-    guard[0] = (of(jet.motion.r[0]) - at).scaled(side);
 }
 
 impl<L: Lane> Switched<L> for GeneralCapsule<L> {
@@ -190,7 +162,8 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
     type Jet = GeneralJet<L>;
     type Event = EventKind;
 
-    const GUARDS: usize = 5;
+    const GUARDS: usize = 7;
+    const MOST_ZEROS: usize = 3;
 
     #[inline(always)]
     fn period(&self) -> L {
@@ -208,13 +181,20 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
 
     #[inline(always)]
     fn expand(&self, mode: &GeneralMode<L>, time: L, state: &State<L>, jet: &mut GeneralJet<L>) {
-        let zero = L::splat(0.0);
-        let (slides, slopes) = (mode.slides(), self.springs.slopes(&mode.touched()));
-        let (any_slides, drag) = (slides.any(), self.ground.towards(mode.slip));
-        self.drive.force(mode.passed, time, &mut jet.drive);
         if self.drive.has_edges() {
             jet.until_edge = self.drive.until_next(mode.passed, time);
         }
+        if self.drive.is_prescribed() {
+            self.expand_prescribed(mode, time, state, jet);
+            return;
+        }
+        let slopes = self.springs.slopes(&mode.touched());
+        let (any_slides, drag) = (mode.slides().any(), self.ground.towards(mode.slip));
+        self.drive.force(mode.passed, time, &mut jet.drive);
+        let inverse_mass = match self.springs.is_rigid {
+            true => L::select(mode.front, self.share_of_mass * self.inverse_m1, self.inverse_m2),
+            false => self.inverse_m2,
+        };
         self.begin(mode, state, jet, &drag);
         for k in 0..ORDER {
             let per = L::Plain::splat(series::INVERSE[k + 1]);
@@ -225,20 +205,13 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
             }
             let motion = &mut jet.motion;
             motion.r[k + 1] = jet.relative[k].scaled(per);
-            motion.y1[k + 1] = (on_mass * self.inverse_m1).scaled(per);
-            if any_slides {
-                let of_speed = [&motion.decay, &motion.y2];
-                let friction = self.ground.force_term(&drag, mode.slip, of_speed, k);
-                let moves = (jet.push[k] - friction) * self.inverse_m2;
-                motion.acceleration[k] = L::select(slides, moves, zero);
-                motion.y2[k + 1] = motion.acceleration[k].scaled(per);
-                motion.x2[k + 1] = motion.y2[k].scaled(per);
-                drag.write_exponent_term(mode.slip, motion, k + 1);
-                motion.decay[k + 1] = drag.decay_term(mode.slip, motion, k);
-            } else {
-                motion.acceleration[k] = zero;
-                (motion.y2[k + 1], motion.x2[k + 1], motion.decay[k + 1]) = (zero, zero, zero);
-            }
+            self.write_capsule_term(mode, any_slides, &drag, inverse_mass, jet, k);
+            let motion = &mut jet.motion;
+            let own = (on_mass * self.inverse_m1).scaled(per);
+            motion.y1[k + 1] = match self.springs.is_rigid {
+                true => L::select(mode.front, motion.y2[k + 1], own),
+                false => own,
+            };
         }
         self.write_forces(mode, slopes, jet, ORDER);
     }
@@ -265,6 +238,10 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
         match which {
             EDGE => self.drive.has_next(mode.passed),
             REAR => self.springs.has_rear(),
+            FRONT => L::Mask::splat(!self.drive.is_prescribed()),
+            FRONT_FORCE | REAR_FORCE if !self.springs.release_by_force => L::Mask::splat(false),
+            FRONT_FORCE => mode.front | mode.beyond_front,
+            REAR_FORCE => mode.rear | mode.beyond_rear,
             BACKWARD => !mode.slides(),
             _ => L::Mask::splat(true),
         }
@@ -328,11 +305,15 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
         zeros: &mut Zeros<L>,
         time: L,
     ) -> L {
-        match which {
-            EDGE => self.pass_edge(due, mode, state, time),
-            FRONT | REAR => self.meet_stop(which, due, mode, (state, zeros), time),
-            _ => self.obey_ground(which, due, mode, (state, zeros), time),
-        }
+        let event = match which {
+            EDGE => self.pass_edge(due, mode, state, zeros),
+            FRONT if self.springs.is_rigid => self.meet_rigid_stop(due, mode, state, zeros, time),
+            FRONT | REAR => self.meet_stop(which, due, mode, state, zeros),
+            FRONT_FORCE | REAR_FORCE => self.turn_force(which, due, mode, zeros),
+            _ => self.obey_ground(which, due, mode, state, zeros, time),
+        };
+        self.note_jumps(which, due, mode, state, zeros, time);
+        event
     }
 
     #[inline(always)]
@@ -349,6 +330,9 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
 
     #[inline(always)]
     fn touching<'a>(&self, jet: &'a GeneralJet<L>) -> Option<(&'a Series<L>, [L; 2])> {
+        if self.drive.is_prescribed() {
+            return None;
+        }
         let front = self.springs.front.at;
         let rear = L::select(self.springs.has_rear(), self.springs.rear.at, front);
         Some((&jet.motion.r, [front, rear]))

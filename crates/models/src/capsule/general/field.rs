@@ -1,11 +1,11 @@
 //! The equations of the family as they are written, and what is told of a motion beside its coordinates.
 
-use capsulemap_engine::flow::{Field, Step};
+use capsulemap_engine::flow::{Field, Step, Switched};
 use capsulemap_engine::lane::{Lane, Mask, Series, series};
 
 use super::equations::GeneralCapsule;
 use super::state::{GeneralJet, GeneralMode};
-use crate::capsule::locomotion::{DriveSeries, Locomotion, Parts};
+use crate::capsule::locomotion::{DriveSeries, Jump, Locomotion, Parts};
 use crate::capsule::state::{Jet, State};
 
 impl Field for GeneralCapsule<f64> {
@@ -17,9 +17,15 @@ impl Field for GeneralCapsule<f64> {
 
     fn rates(&self, mode: &GeneralMode<f64>, time: f64, state: &State<f64>) -> State<f64> {
         let State { y1, y2, .. } = *state;
+        if self.drive.is_prescribed() {
+            return self.prescribed_rates(mode, time, y2);
+        }
         let force = self.springs.force(&mode.touched(), state);
         let drive = self.drive.exact_force(mode.passed, time);
         let acceleration = (drive - force + self.ground.pull) * self.inverse_m1;
+        if self.lasts(mode) {
+            return self.rates_at_stop(mode.slip, y2, drive);
+        }
         if mode.slip == 0.0 {
             return State { r: y1, y1: acceleration, x2: 0.0, y2: 0.0 };
         }
@@ -31,6 +37,31 @@ impl Field for GeneralCapsule<f64> {
     /// A displacement r or x2 counts as the velocity omega r.
     fn weights(&self) -> [f64; 4] {
         [self.drive.omega, 1.0, self.drive.omega, 1.0]
+    }
+}
+
+impl GeneralCapsule<f64> {
+    /// The rates where the motion of the mass relative to the capsule is prescribed.
+    fn prescribed_rates(&self, mode: &GeneralMode<f64>, time: f64, y2: f64) -> State<f64> {
+        let [speed, acceleration] = self.drive.exact_motion(mode.passed, time);
+        if mode.slip == 0.0 {
+            return State { r: speed, y1: acceleration, x2: 0.0, y2: 0.0 };
+        }
+        let along = self.ground.push + self.ground.pull;
+        let push = along - self.m1 * acceleration - self.ground.force(mode.slip, y2);
+        let own = push * self.share_of_mass * self.inverse_m1;
+        State { r: speed, y1: own + acceleration, x2: y2, y2: own }
+    }
+
+    /// The rates of a mass that stays at its rigid stop, and so moves with the capsule.
+    fn rates_at_stop(&self, slip: f64, y2: f64, drive: f64) -> State<f64> {
+        if slip == 0.0 {
+            return State::default();
+        }
+        let external = if self.reacts { 0.0 } else { drive };
+        let push = external + self.ground.push + self.ground.pull - self.ground.force(slip, y2);
+        let acceleration = push * self.inverse_m1 * self.share_of_mass;
+        State { r: 0.0, y1: acceleration, x2: y2, y2: acceleration }
     }
 }
 
@@ -87,11 +118,28 @@ impl<L: Lane> Locomotion<L> for GeneralCapsule<L> {
         if mode.slides().any() {
             drag = self.ground.drag(mode.slip, &jet.motion.y2);
         }
+        let mut stops = self.springs.stop_forces(&touched, [&jet.motion.r, &jet.relative]);
+        self.add_bearing(mode, jet, &mut stops[0]);
         Some(Parts {
-            stops: self.springs.stop_forces(&touched, [&jet.motion.r, &jet.relative]),
+            stops,
             rear: L::select(self.springs.has_rear(), self.springs.rear.at, far),
+            is_rigid: self.springs.is_rigid,
             damping: self.springs.contact_damping(&touched),
             drag,
         })
+    }
+
+    #[inline(always)]
+    fn jump(&self, step: &Step<L, Self>) -> Option<Jump<L>> {
+        let state = self.at(&step.jet, step.length);
+        if self.springs.is_rigid || self.springs.release_by_force {
+            let left = self.springs.left_in_stops(step.event, &state);
+            let own = Jump::of_energy(left, state.y2);
+            return Some(match self.springs.is_rigid {
+                true => self.jump_at_stop(step.event, &state).or(own),
+                false => own,
+            });
+        }
+        self.drive.velocity_jumps().then(|| self.jump_at_edge(step.event, &step.mode, &state))
     }
 }

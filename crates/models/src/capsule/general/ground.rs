@@ -79,6 +79,23 @@ impl<L: Lane> Ground<L> {
         }
     }
 
+    /// The resistance to a speed in the direction `slip`; zero where that is none [N].
+    #[inline(always)]
+    pub fn resistance(&self, slip: L, y2: L) -> L {
+        let (one, drag) = (L::splat(1.0), self.towards(slip));
+        let dry = match drag.law {
+            Resistance::CoulombStribeck => {
+                slip * drag.dynamic * (one + self.stribeck * drag.decay_start(y2))
+            }
+            Resistance::Coulomb => slip * drag.dynamic,
+            Resistance::Medium => L::splat(0.0),
+        };
+        match self.has_drag {
+            true => dry + drag.linear * y2 + drag.quadratic * slip * y2 * y2,
+            false => dry,
+        }
+    }
+
     /// Coefficient `k` of the resistance to sliding in the direction `slip`, whose constants are those of `drag`.
     #[inline(always)]
     pub fn force_term(&self, drag: &Drag<L>, slip: L, [decay, y2]: [&Series<L>; 2], k: usize) -> L {

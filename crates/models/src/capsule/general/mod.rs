@@ -2,14 +2,19 @@
 
 pub mod balance;
 mod drive;
+mod edges;
 mod equations;
 mod field;
 mod ground;
+mod prescribed;
+mod guards;
+mod rigid;
 mod springs;
 mod state;
 mod switch;
 
-pub use drive::{PiecewiseDrive, edge_at};
+pub use drive::PiecewiseDrive;
+pub use edges::edge_at;
 pub use equations::GeneralCapsule;
 pub use ground::Ground;
 pub use springs::{Springs, Touched};

@@ -4,7 +4,7 @@ use capsulemap_engine::lane::{Lane, Series, series, side_by_side};
 
 use crate::capsule::parameter::Parameter;
 use crate::capsule::shape::Shape;
-use crate::capsule::state::State;
+use crate::capsule::state::{EventKind, State, is_event};
 
 /// A stop, by the displacement r at which the mass meets it.
 #[derive(Debug, Clone, Copy)]
@@ -33,12 +33,20 @@ pub struct Springs<L> {
     pub front: Stop<L>,
     /// The rear stop; one without stiffness and damping where there is none.
     pub rear: Stop<L>,
+    /// The coefficient of restitution of a front stop that is rigid.
+    pub restitution: L,
     has_cubic_terms: bool,
     /// Whether a stop may damp, so that the force jumps where it is met.
     pub has_damped_stops: bool,
+    /// Whether the front stop is rigid: it has no stiffness and no damping.
+    pub is_rigid: bool,
+    /// Whether the mass leaves a stop where its force falls to zero.
+    pub release_by_force: bool,
 }
 
-side_by_side!(Springs { k1, c, k1_cubic, k2_cubic, preload } with { front, rear } alike { has_cubic_terms, has_damped_stops });
+side_by_side!(Springs { k1, c, k1_cubic, k2_cubic, preload, restitution } with { front, rear } alike {
+    has_cubic_terms, has_damped_stops, is_rigid, release_by_force
+});
 
 /// The stops that the mass touches.
 #[derive(Debug, Clone, Copy)]
@@ -70,12 +78,15 @@ impl<L: Lane> Springs<L> {
     /// Those of these parameters.
     pub fn new(of: impl Fn(Parameter) -> L, shape: Shape) -> Self {
         let zero = L::splat(0.0);
+        // A prescribed motion leaves nothing to springs and stops.
+        let of = |it| if shape.drive.is_prescribed() { zero } else { of(it) };
         let given = |it| if shape.has(it) { of(it) } else { zero };
         let k1 = of(Parameter::K1);
+        let elastic = |value: L| if shape.is_rigid() { zero } else { value };
         let front = Stop {
             at: of(Parameter::Delta),
-            stiffness: of(Parameter::K2),
-            damping: given(Parameter::K2Damping),
+            stiffness: elastic(of(Parameter::K2)),
+            damping: elastic(given(Parameter::K2Damping)),
         };
         let rear = Stop {
             at: -given(Parameter::Delta3),
@@ -86,12 +97,15 @@ impl<L: Lane> Springs<L> {
             k1,
             c: of(Parameter::C),
             k1_cubic: given(Parameter::K1Cubic),
-            k2_cubic: given(Parameter::K2Cubic),
+            k2_cubic: elastic(given(Parameter::K2Cubic)),
             preload: k1 * given(Parameter::PreloadGap),
             front,
             rear,
             has_cubic_terms: shape.has_cubic_terms(),
+            restitution: of(Parameter::Restitution),
             has_damped_stops: shape.has_damped_stops(),
+            is_rigid: shape.is_rigid(),
+            release_by_force: shape.releases_by_force(),
         }
     }
 
@@ -130,6 +144,32 @@ impl<L: Lane> Springs<L> {
     #[inline(always)]
     pub fn of_rear(&self, touched: &Touched<L>, state: &State<L>) -> L {
         L::select(touched.rear, self.rear.force(state), L::splat(0.0))
+    }
+
+    /// The energy that is left in the springs of the stops where they let go of the mass beyond their place, and minus what they have where
+    /// they push it again there; zero at any other event [J].
+    #[inline(always)]
+    pub fn left_in_stops(&self, event: L, state: &State<L>) -> L {
+        let (zero, half) = (L::splat(0.0), L::splat(0.5));
+        if !self.release_by_force {
+            return zero;
+        }
+        let front = self.front.deformation(state.r);
+        let square = front * front;
+        let cubic = half * half * self.k2_cubic * square;
+        let in_front = (half * self.front.stiffness + cubic) * square;
+        let rear = self.rear.deformation(state.r);
+        let in_rear = half * self.rear.stiffness * rear * rear;
+        let mut left = zero;
+        for (kind, energy) in [
+            (EventKind::ContactOpened, in_front),
+            (EventKind::ContactClosed, -in_front),
+            (EventKind::RearContactOpened, in_rear),
+            (EventKind::RearContactClosed, -in_rear),
+        ] {
+            left = L::select(is_event(event, kind), energy, left);
+        }
+        left
     }
 
     /// What of the force changes in proportion to r, and to the relative velocity [N/m, N s/m].
@@ -204,6 +244,12 @@ impl<L: Lane> Springs<L> {
 }
 
 impl<L: Lane> Stop<L> {
+    /// How far the mass is beyond the place of the stop, forward positive [m].
+    #[inline(always)]
+    fn deformation(&self, r: L) -> L {
+        r - self.at
+    }
+
     /// The linear force of the stop on the mass in contact [N].
     #[inline(always)]
     fn force(&self, state: &State<L>) -> L {

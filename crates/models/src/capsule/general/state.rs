@@ -1,9 +1,24 @@
-//! What a motion of the family is made of beside the state: mode and series.
+//! What a motion of the family is made of beside the state: guards, mode and series.
 
 use capsulemap_engine::lane::{Lane, Mask, Series, series, side_by_side};
 
 use super::springs::{Squares, Touched};
-use crate::capsule::state::Jet;
+use crate::capsule::state::{EventKind, Jet};
+
+/// Guard of the drive, the time until its next edge.
+pub(super) const EDGE: usize = 0;
+/// Guard of the front stop, `r - delta` while it is touched and `delta - r` apart from it.
+pub(super) const FRONT: usize = 1;
+/// Guard of the rear stop, `-delta_3 - r` while it is touched and `r + delta_3` apart from it.
+pub(super) const REAR: usize = 2;
+/// Guard of sliding, the speed; at rest, how far the push is below the break-away force.
+pub(super) const FORWARD: usize = 3;
+/// At rest, how far the push is above minus the break-away force of backward motion.
+pub(super) const BACKWARD: usize = 4;
+/// With a release by force, the force of the front stop while it is touched, and minus what it would be beyond its place apart from it.
+pub(super) const FRONT_FORCE: usize = 5;
+/// The same of the rear stop.
+pub(super) const REAR_FORCE: usize = 6;
 
 /// Which field acts in each lane.
 #[derive(Debug, Clone, Copy)]
@@ -12,6 +27,14 @@ pub struct GeneralMode<L: Lane> {
     pub(super) front: L::Mask,
     /// Whether the mass touches the rear stop.
     pub(super) rear: L::Mask,
+    /// Whether the mass is beyond the place of the front stop, which has let go of it.
+    pub(super) beyond_front: L::Mask,
+    /// Whether it is beyond that of the rear stop.
+    pub(super) beyond_rear: L::Mask,
+    /// Whether the force of the rigid stop has jumped below zero, so that it lets go at once.
+    pub(super) let_go: L::Mask,
+    /// Whether it has let go where its force fell to zero.
+    pub(super) left: L::Mask,
     /// Direction of sliding, +1 or -1; 0 at rest.
     pub(super) slip: L,
     /// How many edges of the drive have passed in the cycle.
@@ -20,12 +43,22 @@ pub struct GeneralMode<L: Lane> {
     pub(super) thrown: L,
 }
 
-side_by_side!(GeneralMode { slip, passed, thrown } masks { front, rear });
+side_by_side!(GeneralMode { slip, passed, thrown } masks { front, rear, beyond_front, beyond_rear, let_go, left });
 
 impl<L: Lane> Default for GeneralMode<L> {
     fn default() -> Self {
         let (apart, zero) = (L::Mask::splat(false), L::splat(0.0));
-        GeneralMode { front: apart, rear: apart, slip: zero, passed: zero, thrown: zero }
+        GeneralMode {
+            front: apart,
+            rear: apart,
+            beyond_front: apart,
+            beyond_rear: apart,
+            let_go: apart,
+            left: apart,
+            slip: zero,
+            passed: zero,
+            thrown: zero,
+        }
     }
 }
 
@@ -34,6 +67,39 @@ impl<L: Lane> GeneralMode<L> {
     #[inline(always)]
     pub(super) fn touched(&self) -> Touched<L> {
         Touched { front: self.front, rear: self.rear }
+    }
+
+    /// Of the front stop, or of the rear one: where the mass touches it, where it is beyond its place without, and the events there, opening
+    /// and closing.
+    #[inline(always)]
+    pub(super) fn contact(
+        &mut self,
+        is_front: bool,
+    ) -> (&mut L::Mask, &mut L::Mask, [EventKind; 2]) {
+        match is_front {
+            true => (
+                &mut self.front,
+                &mut self.beyond_front,
+                [EventKind::ContactOpened, EventKind::ContactClosed],
+            ),
+            false => (
+                &mut self.rear,
+                &mut self.beyond_rear,
+                [EventKind::RearContactOpened, EventKind::RearContactClosed],
+            ),
+        }
+    }
+
+    /// Where the mass is beyond the place of the front stop.
+    #[inline(always)]
+    pub(super) fn is_in_front(&self) -> L::Mask {
+        self.front | self.beyond_front
+    }
+
+    /// Where the mass is beyond the place of the rear stop.
+    #[inline(always)]
+    pub(super) fn is_in_rear(&self) -> L::Mask {
+        self.rear | self.beyond_rear
     }
 
     /// Where the capsule slides.

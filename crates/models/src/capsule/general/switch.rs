@@ -1,10 +1,10 @@
 //! How the modes of the family follow each other.
 
 use capsulemap_engine::flow::{Event, Zeros};
-use capsulemap_engine::lane::Lane;
+use capsulemap_engine::lane::{Lane, Mask};
 
-use super::equations::{FORWARD, FRONT, GeneralCapsule};
-use super::state::GeneralMode;
+use super::equations::GeneralCapsule;
+use super::state::{EDGE, FORWARD, FRONT, FRONT_FORCE, GeneralMode, REAR};
 use crate::capsule::locomotion::direction;
 use crate::capsule::state::{EventKind, State};
 
@@ -16,29 +16,75 @@ impl<L: Lane> GeneralCapsule<L> {
         let mut mode = GeneralMode {
             front: front.lt(state.r),
             rear: state.r.lt(rear) & self.springs.has_rear(),
-            slip: zero,
             passed: self.drive.passed_at(time),
-            thrown: zero,
+            ..GeneralMode::default()
         };
-        let push = self.push(&mode, time, state);
+        if self.drive.is_prescribed() {
+            (mode.front, mode.rear) = (L::Mask::splat(false), L::Mask::splat(false));
+            self.place_mass(L::Mask::splat(true), &mode, time, state);
+        }
+        if self.springs.is_rigid {
+            mode.front = L::Mask::splat(false);
+            mode.slip = direction(state.y2);
+            mode.front = self.start_at_stop(&mode, time, state);
+        }
+        if self.springs.release_by_force {
+            self.let_go_of_pulled(&mut mode, state);
+        }
+        let push = self.push_at_stop(&mode, time, state);
         let breaks_away = self.beyond_rest(push);
         let from_rest = L::select(breaks_away, direction(push), zero);
         mode.slip = L::select(state.y2.abs().le(zero), from_rest, direction(state.y2));
         state.y2 = L::select(mode.slides(), state.y2, zero);
+        state.y1 = L::select(self.lasts(&mode), state.y2, state.y1);
+        if self.drive.is_prescribed() {
+            self.place_mass(L::Mask::splat(true), &mode, time, state);
+        }
         mode
     }
 
     /// Where a push exceeds what holds the capsule at rest.
     #[inline(always)]
-    fn beyond_rest(&self, push: L) -> L::Mask {
+    pub(super) fn beyond_rest(&self, push: L) -> L::Mask {
         let (forward, backward) = (self.ground.forward.break_away, self.ground.backward.break_away);
         forward.lt(push) | push.lt(-backward)
+    }
+
+    /// Notes what a force that has jumped at the event of guard `which` does at once.
+    #[inline(always)]
+    pub(super) fn note_jumps(
+        &self,
+        which: usize,
+        due: L::Mask,
+        mode: &mut GeneralMode<L>,
+        state: &State<L>,
+        zeros: &mut Zeros<L>,
+        time: L,
+    ) {
+        let may_jump = match which {
+            // At a rigid stop the capsule feels every drive.
+            EDGE => self.reacts || self.springs.is_rigid,
+            FRONT | REAR => self.springs.has_damped_stops || self.springs.is_rigid,
+            _ => false,
+        };
+        if may_jump {
+            self.note_jump(due, mode, state, time);
+        }
+        if self.springs.is_rigid {
+            self.note_let_go(due, mode, state, time);
+            if which != FRONT {
+                // The force on a mass that has just been let go may have jumped.
+                let least = zeros[FRONT].min(L::splat(2.0));
+                zeros[FRONT] = L::select(due, least, zeros[FRONT]);
+                mode.left = mode.left & !due;
+            }
+        }
     }
 
     /// Notes whether the force on a capsule at rest has jumped beyond what holds it.
     #[inline(always)]
     fn note_jump(&self, due: L::Mask, mode: &mut GeneralMode<L>, state: &State<L>, time: L) {
-        let push = self.push(mode, time, state);
+        let push = self.push_at_stop(mode, time, state);
         let thrown = L::select(self.beyond_rest(push), direction(push), L::splat(0.0));
         mode.thrown = L::select(due & !mode.slides(), thrown, mode.thrown);
     }
@@ -49,12 +95,14 @@ impl<L: Lane> GeneralCapsule<L> {
         &self,
         due: L::Mask,
         mode: &mut GeneralMode<L>,
-        state: &State<L>,
-        time: L,
+        state: &mut State<L>,
+        zeros: &mut Zeros<L>,
     ) -> L {
+        let before = mode.passed;
         mode.passed = mode.passed + L::select(due, L::splat(1.0), L::splat(0.0));
-        if self.reacts {
-            self.note_jump(due, mode, state, time);
+        if self.drive.velocity_jumps() {
+            self.jump_with_edge(due, before, mode, state);
+            zeros[FORWARD] = L::select(due, L::splat(0.0), zeros[FORWARD]);
         }
         L::select(due, EventKind::DriveEdge.code(), L::splat(0.0))
     }
@@ -66,29 +114,46 @@ impl<L: Lane> GeneralCapsule<L> {
         which: usize,
         due: L::Mask,
         mode: &mut GeneralMode<L>,
-        (state, zeros): (&mut State<L>, &mut Zeros<L>),
-        time: L,
+        state: &mut State<L>,
+        zeros: &mut Zeros<L>,
     ) -> L {
-        let (touched, stop, events) = match which {
-            FRONT => (
-                &mut mode.front,
-                &self.springs.front,
-                [EventKind::ContactOpened, EventKind::ContactClosed],
-            ),
-            _ => (
-                &mut mode.rear,
-                &self.springs.rear,
-                [EventKind::RearContactOpened, EventKind::RearContactClosed],
-            ),
-        };
+        let stop = if which == FRONT { &self.springs.front } else { &self.springs.rear };
+        let (touched, beyond, events) = mode.contact(which == FRONT);
         let code = L::select(*touched, events[0].code(), events[1].code());
-        *touched = (*touched & !due) | (!*touched & due);
+        // A mass that its stop has let go of before passes its place without an event.
+        let code = L::select(*beyond, L::splat(0.0), code);
+        *touched = (*touched & !due) | (!*touched & !*beyond & due);
+        *beyond = *beyond & !due;
         state.r = L::select(due, stop.at, state.r);
         zeros[which] = L::select(due, L::splat(1.0), zeros[which]);
-        if self.springs.has_damped_stops {
-            self.note_jump(due, mode, state, time);
-        }
         L::select(due, code, L::splat(0.0))
+    }
+
+    /// Lets go of a mass that its stop would pull, or touches one that it would push, where `due`; returns the event there.
+    #[inline(always)]
+    pub(super) fn turn_force(
+        &self,
+        which: usize,
+        due: L::Mask,
+        mode: &mut GeneralMode<L>,
+        zeros: &mut Zeros<L>,
+    ) -> L {
+        let (touched, beyond, events) = mode.contact(which == FRONT_FORCE);
+        let code = L::select(*touched, events[0].code(), events[1].code());
+        let (lets_go, touches) = (due & *touched, due & *beyond);
+        *touched = (*touched & !lets_go) | touches;
+        *beyond = (*beyond & !touches) | lets_go;
+        zeros[which] = L::select(due, L::splat(1.0), zeros[which]);
+        L::select(due, code, L::splat(0.0))
+    }
+
+    /// Lets go of a mass at the start that its stop would pull.
+    fn let_go_of_pulled(&self, mode: &mut GeneralMode<L>, state: &State<L>) {
+        let (zero, touched) = (L::splat(0.0), mode.touched());
+        mode.beyond_front = mode.front & self.springs.of_front(&touched, state).lt(zero);
+        mode.beyond_rear = mode.rear & zero.lt(self.springs.of_rear(&touched, state));
+        mode.front = mode.front & !mode.beyond_front;
+        mode.rear = mode.rear & !mode.beyond_rear;
     }
 
     /// Leaves rest, comes to rest or turns round where `due`; returns the event there.
@@ -98,7 +163,8 @@ impl<L: Lane> GeneralCapsule<L> {
         which: usize,
         due: L::Mask,
         mode: &mut GeneralMode<L>,
-        (state, zeros): (&mut State<L>, &mut Zeros<L>),
+        state: &mut State<L>,
+        zeros: &mut Zeros<L>,
         time: L,
     ) -> L {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
@@ -106,9 +172,13 @@ impl<L: Lane> GeneralCapsule<L> {
         let slides = mode.slides();
         let (leaves, stops) = (due & !slides, due & slides);
         state.y2 = L::select(stops, zero, state.y2);
+        state.y1 = L::select(stops & self.lasts(mode), zero, state.y1);
+        if self.drive.is_prescribed() {
+            self.place_mass(stops, mode, time, state);
+        }
         // One stored force decides between rest and reversal; friction cannot push the capsule on in
         // the direction it was brought to rest from.
-        let against = -(mode.slip * self.push(mode, time, state));
+        let against = -(mode.slip * self.push_at_stop(mode, time, state));
         let reverses = stops & self.ground.towards(-mode.slip).break_away.lt(against);
         let sticks = stops & !reverses;
         let onset = if which == FORWARD { EventKind::SlipForward } else { EventKind::SlipBackward };
