@@ -11,6 +11,7 @@ use super::header::{self, Header, Mark};
 use super::inferred;
 use super::kind::{Kind, Names, Needs};
 use super::known_attractors::{self, KnownAttractors};
+use super::motion::Motion;
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
@@ -45,7 +46,7 @@ fn reads(_: &Drawing, model: &'static Description) -> Names {
         .and(edges(model))
         .and(inferred::READS)
         .and([Place::Attractor.of(Entry::of_output(model.main_output()))])
-        .and(model.impact_surface().map(Entry::of_parameter))
+        .and(model.parameters().map(Entry::of_parameter))
 }
 
 /// Draws the basins that `view` asks for.
@@ -78,8 +79,8 @@ struct Basins<'a> {
     points: Vec<SectionPoint>,
     /// The section points of saddles.
     saddles: Vec<(f64, f64)>,
-    /// The ends of the line where the mass reaches the stop.
-    surface: Option<[(f64, f64); 2]>,
+    /// The ends of the lines where the mass reaches its stops.
+    surfaces: Vec<[(f64, f64); 2]>,
 }
 
 impl<'a> Basins<'a> {
@@ -111,7 +112,10 @@ impl<'a> Basins<'a> {
                 false => Vec::new(),
             },
             saddles: if view.shows("saddles") { saddles(view, &plane) } else { Vec::new() },
-            surface: surface(view, &plane).filter(|_| view.shows("impact-surface")),
+            surfaces: match view.shows("impact-surface") {
+                true => surfaces(view, &plane),
+                false => Vec::new(),
+            },
             plane,
         })
     }
@@ -167,8 +171,10 @@ impl<'a> Basins<'a> {
             let words = Text::plain(&format!("saddles on the boundary{more}"));
             legend.push((Mark::Ring(INK, RADIUS), words));
         }
-        if self.surface.is_some() {
-            legend.push((Mark::Line(SURFACE), Text::plain("impact surface")));
+        if !self.surfaces.is_empty() {
+            let several = if self.surfaces.len() > 1 { "s" } else { "" };
+            let words = Text::plain(&format!("impact surface{several}"));
+            legend.push((Mark::Line(SURFACE), words));
         }
         legend
     }
@@ -177,7 +183,7 @@ impl<'a> Basins<'a> {
     fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
         self.plane.draw(canvas, panel, |case| self.fill(case));
         self.plane.record(canvas, panel, ATTRACTOR.name, |case| self.value(case));
-        if let Some(ends) = &self.surface {
+        for ends in &self.surfaces {
             panel.curve(canvas, ends, SURFACE);
         }
         draw_saddles(canvas, panel, &self.saddles);
@@ -228,16 +234,19 @@ impl<'a> Basins<'a> {
     }
 }
 
-/// The ends of the line where the mass reaches the stop, if an axis is its displacement and the line lies on it.
-fn surface(view: &View<'_>, plane: &Plane<'_>) -> Option<[(f64, f64); 2]> {
-    let delta = view.model().impact_surface()?.symbol();
-    let factor = view.quantity(delta).factor;
-    let gap = view.parameter(delta, &[]).ok()?.first().copied()? * factor;
-    let displacement = Coordinate::starts(view.model()).next()?.name();
+/// The ends of the lines where the mass reaches its stops, as far as an axis is its displacement and they lie on it.
+fn surfaces(view: &View<'_>, plane: &Plane<'_>) -> Vec<[(f64, f64); 2]> {
+    let Some(displacement) = Coordinate::starts(view.model()).next() else { return Vec::new() };
+    let factor = view.quantity(displacement.name()).factor;
+    let stops = Motion::drawn(view, &plane.free(), 0).stops();
     let (x, y) = (&plane.x.scale, &plane.y.scale);
-    if plane.x_name == displacement && (x.low..=x.high).contains(&gap) {
-        return Some([(gap, y.low), (gap, y.high)]);
-    }
-    let along_y = plane.y_name == displacement && (y.low..=y.high).contains(&gap);
-    along_y.then_some([(x.low, gap), (x.high, gap)])
+    let ends = stops.into_iter().filter_map(|(at, _)| {
+        let gap = at * factor;
+        if plane.x_name == displacement.name() && (x.low..=x.high).contains(&gap) {
+            return Some([(gap, y.low), (gap, y.high)]);
+        }
+        let along_y = plane.y_name == displacement.name() && (y.low..=y.high).contains(&gap);
+        along_y.then_some([(x.low, gap), (x.high, gap)])
+    });
+    ends.collect()
 }

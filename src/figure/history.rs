@@ -19,7 +19,7 @@ use crate::study::{Drawing, DrawingKind};
 
 /// Height of a frame [pt].
 const HEIGHT: f64 = 82.0;
-/// The line at the gap between mass and plate.
+/// The line at the gap between mass and stop.
 const GAP_LINE: Stroke = Stroke { colour: FAINT_INK, width: REFERENCE_WIDTH, dash: Dash::Usual };
 
 /// One curve of a panel.
@@ -36,8 +36,8 @@ struct Curve {
 struct Cell {
     output: String,
     curves: Vec<Curve>,
-    /// Gap between mass and plate, where the panel shows the relative displacement.
-    gap: Option<f64>,
+    /// Where the stops are, if the panel shows the coordinate that meets them.
+    stops: Vec<f64>,
 }
 
 /// What a figure of histories shows.
@@ -51,12 +51,12 @@ struct History<'a> {
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
-/// What a history reads: the variables of what it shows, and what time and gap follow from.
+/// What a history reads: the variables of what it shows, and what time and stops follow from.
 fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let usual = model.motion.panels.iter().copied().filter(|_| drawing.of.is_empty());
     let of = drawing.of.iter().map(String::as_str).chain(usual);
     let shown: Vec<&str> = of.flat_map(|name| variables(name, model)).collect();
-    let constants = model.drive_frequency().into_iter().chain(model.impact_surface());
+    let constants = model.drive_frequency().into_iter().chain(model.surfaces().map(|(it, _)| it));
     let constants = constants.map(Entry::of_parameter);
     let sources: Vec<Entry> = shown.iter().flat_map(|name| sources(name, model)).collect();
     let shown = shown.into_iter().map(str::to_owned).collect::<Vec<_>>();
@@ -93,8 +93,8 @@ impl<'a> History<'a> {
         for output in &outputs {
             for motion in &motions {
                 let curves = curves(view, motion, output)?;
-                let gap = gap(view, motion, output);
-                cells.push(Cell { output: output.clone(), curves, gap });
+                let stops = stops(view, motion, output);
+                cells.push(Cell { output: output.clone(), curves, stops });
             }
         }
         Ok(History { cases, outputs, cells })
@@ -203,20 +203,21 @@ fn curves(
     Ok(curves)
 }
 
-/// Where the mass meets the plate, in the unit of the figure, on the panel of the coordinate that meets it.
-fn gap(view: &View<'_>, motion: &Motion<'_, '_>, output: &str) -> Option<f64> {
-    let met = view.model().signal_of_coordinate(0)?;
-    let delta = view.model().impact_surface()?;
-    if met.name() != output || !view.shows("gap") {
-        return None;
+/// Where the mass meets its stops, in the unit of the figure, on the panel of the coordinate that meets them.
+fn stops(view: &View<'_>, motion: &Motion<'_, '_>, output: &str) -> Vec<f64> {
+    let met = view.model().signal_of_coordinate(0).filter(|it| it.name() == output);
+    if met.is_none() || !view.shows("gap") {
+        return Vec::new();
     }
-    Some(motion.surface()? * view.quantity(delta.symbol()).factor)
+    let factor = view.quantity(output).factor;
+    motion.stops().into_iter().map(|(at, _)| at * factor).collect()
 }
 
 impl Cell {
     /// All that stands along its ordinate.
     fn ordinates(&self) -> impl Iterator<Item = f64> {
-        self.curves.iter().flat_map(|curve| curve.points.iter().map(|it| it.1)).chain(self.gap)
+        let values = self.curves.iter().flat_map(|curve| curve.points.iter().map(|it| it.1));
+        values.chain(self.stops.iter().copied())
     }
 }
 
@@ -234,7 +235,10 @@ fn ordinates(cells: &[Cell], output: &str, noise: f64) -> Vec<Scale> {
 }
 
 fn legend(view: &View<'_>, cell: &Cell) -> Vec<(Mark, Text)> {
-    let surface = view.model().impact_surface().filter(|_| cell.gap.is_some());
+    if cell.stops.len() > 1 {
+        return vec![(Mark::Line(GAP_LINE), Text::plain("stops"))];
+    }
+    let surface = view.model().impact_surface().filter(|_| !cell.stops.is_empty());
     if let Some(delta) = surface {
         return vec![(Mark::Line(GAP_LINE), view.quantity(delta.symbol()).short_name())];
     }
@@ -249,8 +253,8 @@ fn legend(view: &View<'_>, cell: &Cell) -> Vec<(Mark, Text)> {
 }
 
 fn draw_cell(canvas: &mut Canvas, panel: &Panel, cell: &Cell) {
-    if let Some(gap) = cell.gap {
-        let ends = [(panel.x.scale.low, gap), (panel.x.scale.high, gap)];
+    for stop in &cell.stops {
+        let ends = [(panel.x.scale.low, *stop), (panel.x.scale.high, *stop)];
         panel.curve(canvas, &ends, GAP_LINE);
     }
     for curve in &cell.curves {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::error::FigureError;
 use super::view::View;
-use crate::description::{Description, Parameters, Presence, SignalKind, Source, State};
+use crate::description::{Description, Parameter, Parameters, Presence, SignalKind, Source, State};
 use crate::motion::{Case, Stretch};
 use crate::of::model_of;
 use crate::store::catalogue::{Entry, HISTORY_TIME, histories, impacts, section};
@@ -184,6 +184,19 @@ impl<'v, 'a> Motion<'v, 'a> {
     /// Where impacts happen [SI], if that is known.
     pub fn surface(&self) -> Option<f64> {
         self.number(self.view.model().impact_surface()?.symbol()).ok()
+    }
+
+    /// Where the stops are that the first coordinate meets, as far as they are known [SI], and on which side, 1 or -1.
+    pub fn stops(&self) -> Vec<(f64, f64)> {
+        let (model, parameters) = (self.view.model(), self.parameters().ok());
+        let at = |it: Parameter| match &parameters {
+            Some(all) if (model.rules.no_effect)(all, it).is_some() => None,
+            Some(all) => Some(all[it]),
+            // Of results that do not hold all parameters, what they hold.
+            None => self.number(it.symbol()).ok().filter(|it| it.is_finite()),
+        };
+        let known = model.surfaces().filter_map(|(it, side)| Some((side * at(it)?, side)));
+        known.collect()
     }
 
     /// The values of a coordinate at points that have these numbers, of which the states follow.

@@ -31,20 +31,20 @@ struct Portrait {
     orbit: Vec<(f64, f64)>,
     sections: Vec<(f64, f64)>,
     impacts: Vec<(f64, f64)>,
-    /// Where the mass reaches the stop, along the abscissa and along the ordinate.
-    gap: [Option<f64>; 2],
+    /// Where the mass reaches its stops, along the abscissa and along the ordinate, and on which side they are, 1 or -1.
+    stops: [Vec<(f64, f64)>; 2],
 }
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
-/// What a portrait reads: the motion, the points of both sections, and the gap.
+/// What a portrait reads: the motion, the points of both sections, and the stops.
 fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let named = drawing.of.iter().flat_map(|name| sources(name, model));
     Names::of(histories(model))
         .and(section(model))
         .and(impacts(model))
-        .and(model.impact_surface().map(Entry::of_parameter))
+        .and(model.surfaces().map(|(it, _)| Entry::of_parameter(it)))
         .and(named)
         .and(sources_of_arcs(model))
         .and_named(drawing.of.clone())
@@ -109,8 +109,9 @@ impl<'a> Portraits<'a> {
         for (case, portrait) in self.portraits.iter().enumerate() {
             let legend = parts.next().map_or(Vec::new(), <[_]>::to_vec);
             let (x, y): (Vec<f64>, Vec<f64>) = portrait.places().unzip();
-            let x = x.into_iter().chain(portrait.gap[0]).collect::<Vec<f64>>();
-            let y = y.into_iter().chain(portrait.gap[1]).collect::<Vec<f64>>();
+            let [of_x, of_y] = [0, 1].map(|axis| portrait.stops[axis].iter().map(|(at, _)| *at));
+            let x = x.into_iter().chain(of_x).collect::<Vec<f64>>();
+            let y = y.into_iter().chain(of_y).collect::<Vec<f64>>();
             let x = AxisRequest::around(view.quantity(self.names[0]), &x, 0.06);
             let y = AxisRequest::around(view.quantity(self.names[1]), &y, 0.06);
             let (letter, note) = (letter(case, count), self.cases[case].note());
@@ -147,11 +148,13 @@ impl Portrait {
             true => places([motion.at_impacts(names[0])?, motion.at_impacts(names[1])?], factors),
             false => Vec::new(),
         };
-        let surface = motion.surface().filter(|_| view.shows("contact"));
         let met = view.model().signal_of_coordinate(0).map(|it| it.name());
-        let gap = [0, 1]
-            .map(|axis| surface.filter(|_| met == Some(names[axis])).map(|it| it * factors[axis]));
-        Ok(Portrait { orbit, sections, impacts, gap })
+        let stops = if view.shows("contact") { motion.stops() } else { Vec::new() };
+        let stops = [0, 1].map(|axis| {
+            let met = stops.iter().filter(|_| met == Some(names[axis]));
+            met.map(|(at, side)| (at * factors[axis], *side)).collect()
+        });
+        Ok(Portrait { orbit, sections, impacts, stops })
     }
 
     /// All places that it shows.
@@ -176,8 +179,10 @@ fn legend(view: &View<'_>, portraits: &[Portrait]) -> Vec<(Mark, Text)> {
     if portraits.iter().any(|it| !it.impacts.is_empty()) {
         legend.push((Mark::Ring(VERMILION, IMPACT_RADIUS), Text::plain("impact")));
     }
-    let has_gap = portraits.iter().any(|it| it.gap.iter().any(Option::is_some));
-    if let Some(delta) = view.model().impact_surface().filter(|_| has_gap) {
+    let most_stops = portraits.iter().flat_map(|it| it.stops.iter().map(Vec::len)).max();
+    if most_stops > Some(1) {
+        legend.push((Mark::Patch(CONTACT), Text::plain("contact")));
+    } else if let Some(delta) = view.model().impact_surface().filter(|_| most_stops == Some(1)) {
         let delta = view.quantity(delta.symbol()).short_name();
         let words = Text::plain("contact, from\u{a0}").then(delta);
         legend.push((Mark::Patch(CONTACT), words));
@@ -185,25 +190,33 @@ fn legend(view: &View<'_>, portraits: &[Portrait]) -> Vec<(Mark, Text)> {
     legend
 }
 
-/// Shades the side of the impact surface where the stop is pressed, with a line along the surface.
-fn draw_contact(canvas: &mut Canvas, panel: &Panel, gap: [Option<f64>; 2]) {
+/// Shades the side of each surface of impacts where its stop is pressed, with a line along the surface.
+fn draw_contact(canvas: &mut Canvas, panel: &Panel, stops: &[Vec<(f64, f64)>; 2]) {
     let frame = panel.frame;
     let (x, y) = (&panel.x.scale, &panel.y.scale);
     let line = Stroke::dashed(FAINT_INK, REFERENCE_WIDTH);
-    if let Some(gap) = gap[0] {
-        let left = panel.place(gap, y.low).0.clamp(frame.left, frame.right);
-        canvas.fill(Rect { left, ..frame }, CONTACT);
-        panel.curve(canvas, &[(gap, y.low), (gap, y.high)], line);
+    for (at, side) in &stops[0] {
+        let place = panel.place(*at, y.low).0.clamp(frame.left, frame.right);
+        let pressed = match *side > 0.0 {
+            true => Rect { left: place, ..frame },
+            false => Rect { right: place, ..frame },
+        };
+        canvas.fill(pressed, CONTACT);
+        panel.curve(canvas, &[(*at, y.low), (*at, y.high)], line);
     }
-    if let Some(gap) = gap[1] {
-        let bottom = panel.place(x.low, gap).1.clamp(frame.top, frame.bottom);
-        canvas.fill(Rect { bottom, ..frame }, CONTACT);
-        panel.curve(canvas, &[(x.low, gap), (x.high, gap)], line);
+    for (at, side) in &stops[1] {
+        let place = panel.place(x.low, *at).1.clamp(frame.top, frame.bottom);
+        let pressed = match *side > 0.0 {
+            true => Rect { bottom: place, ..frame },
+            false => Rect { top: place, ..frame },
+        };
+        canvas.fill(pressed, CONTACT);
+        panel.curve(canvas, &[(x.low, *at), (x.high, *at)], line);
     }
 }
 
 fn draw_portrait(canvas: &mut Canvas, panel: &Panel, portrait: &Portrait) {
-    draw_contact(canvas, panel, portrait.gap);
+    draw_contact(canvas, panel, &portrait.stops);
     panel.curve(canvas, &portrait.orbit, Stroke::solid(BLUE, CURVE_WIDTH));
     let rings = Stroke::solid(VERMILION, CURVE_WIDTH);
     canvas.rings(&panel.places(&portrait.impacts), IMPACT_RADIUS, rings);

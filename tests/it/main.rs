@@ -68,6 +68,7 @@ mod panels;
 mod phases;
 mod poincare;
 mod program;
+mod random_numbers;
 mod random_studies;
 mod readers;
 mod read_files;

@@ -9,7 +9,7 @@ use capsulemap::study::{
     QuantitySettings, ScaleChoice, Settings, Study, Sweep, Texts,
 };
 
-use super::written_studies::Random;
+use super::random_numbers::Random;
 
 impl Random {
     /// A figure of a study.

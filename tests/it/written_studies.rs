@@ -14,65 +14,16 @@ use capsulemap::study::{
     Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Draws, FirstOrbit, Grid, Inherit,
     Range, Refine, Spacing, Study,
 };
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
-/// Draws whatever a study may hold.
-pub struct Random(ChaCha8Rng);
+use super::random_numbers::Random;
+
+/// The coordinate in place of which one stands.
+fn replaced(coordinate: Coordinate) -> Option<Coordinate> {
+    let Coordinate::Parameter(parameter) = coordinate else { return None };
+    parameter.replaces().map(Coordinate::Parameter)
+}
 
 impl Random {
-    pub fn below(&mut self, count: usize) -> usize {
-        (self.0.next_u64() % count as u64) as usize
-    }
-
-    pub fn is_so(&mut self) -> bool {
-        self.below(2) == 0
-    }
-
-    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub fn one<T: Copy>(&mut self, of: &[T]) -> T {
-        of[self.below(of.len())]
-    }
-
-    /// Some of `all`, in any order.
-    pub fn some<T: Clone>(&mut self, all: &[T]) -> Vec<T> {
-        let mut left = all.to_vec();
-        let count = self.below(all.len() + 1);
-        (0..count).map(|_| left.swap_remove(self.below(left.len()))).collect()
-    }
-
-    /// A number over many magnitudes.
-    pub fn number(&mut self, allowed: Allowed) -> f64 {
-        let size = libm::exp(self.uniform(-12.0, 12.0));
-        match allowed {
-            Allowed::Positive => size,
-            Allowed::NonNegative => [0.0, size][usize::from(self.below(8) > 0)],
-            Allowed::Share => self.uniform(0.001, 0.999),
-            Allowed::Slope => self.uniform(-1.5, 1.5),
-            Allowed::Finite => size * self.one(&[-1.0, 1.0]),
-        }
-    }
-
-    /// Two numbers that differ.
-    fn ends(&mut self, allowed: Allowed) -> [f64; 2] {
-        loop {
-            let [from, to] = [(); 2].map(|()| self.number(allowed));
-            if from != to {
-                return [from, to];
-            }
-        }
-    }
-
-    /// A text that is hard to quote.
-    pub fn text(&mut self, more: &[char]) -> String {
-        let all: Vec<char> = "abz 09.,\"\\'#=[]{}äω\u{2028}".chars().collect();
-        let length = self.below(8);
-        (0..length).map(|_| self.one(&[&all[..], more].concat())).collect()
-    }
-
     fn axis(&mut self, coordinate: Coordinate) -> Axis {
         let ends = [self.number(coordinate.allowed()), self.number(coordinate.allowed())];
         let points = 1 + self.below(6);
@@ -101,12 +52,14 @@ impl Random {
     fn case_set(&mut self) -> CaseSet {
         let mut coordinates = self.some(&Coordinate::all(&CAPSULE).collect::<Vec<_>>());
         coordinates.truncate(self.below(5));
+        let all = coordinates.clone();
+        coordinates.retain(|it| !all.iter().any(|other| replaced(*other) == Some(*it)));
         if self.below(3) == 0 && !coordinates.is_empty() {
             let ranges = coordinates.into_iter().map(|it| self.range(it)).collect();
             return CaseSet::Draws(Draws {
                 kind: self.one(&[DrawKind::Uniform, DrawKind::LowDiscrepancy]),
                 count: 1 + self.below(10_000),
-                seed: self.0.next_u64() >> 1,
+                seed: self.bits() >> 1,
                 ranges,
             });
         }
@@ -134,8 +87,8 @@ impl Random {
         Protocol {
             tolerance: tolerance(self).clamp(1e-15, 1e-3),
             recurrence: tolerance(self).clamp(1e-15, 1e-3),
-            max_cycles: 1 + (self.0.next_u64() >> self.one(&[1, 50])) / 2,
-            max_steps: 1 + (self.0.next_u64() >> self.one(&[1, 50])) / 2,
+            max_cycles: 1 + (self.bits() >> self.one(&[1, 50])) / 2,
+            max_steps: 1 + (self.bits() >> self.one(&[1, 50])) / 2,
             max_period: 1 + self.below(100_000),
             measured_cycles: 1 + self.below(1000) as u64,
             exponent_cycles: self.one(&[0, 16, 2048, 1_000_000]),
@@ -192,7 +145,13 @@ impl Random {
         let has_branches = self.is_so();
         let mut study = Study { title: self.text(&[]), case_set, ..Study::default() };
         for &parameter in Parameter::ALL {
-            let is_there = parameter.presence() != Presence::Optional || self.is_so();
+            let in_place = replaced(Coordinate::Parameter(parameter.into()));
+            let is_free = in_place.is_none_or(|it| !varied.contains(&it));
+            let is_replaced = varied
+                .iter()
+                .any(|it| replaced(*it) == Some(Coordinate::Parameter(parameter.into())));
+            let is_there = !is_replaced
+                && (parameter.presence() != Presence::Optional || (self.is_so() && is_free));
             if is_there && !varied.contains(&Coordinate::Parameter(parameter.into())) {
                 study.base[parameter] = self.number(parameter.allowed());
             }
@@ -252,7 +211,7 @@ fn assert_round_trip(study: &Study) {
 
 #[test]
 fn a_study_of_any_keys_is_read_back_as_it_was_written() {
-    let mut random = Random(ChaCha8Rng::seed_from_u64(3));
+    let mut random = Random::new(3);
     let mut seen = BTreeMap::<&str, usize>::new();
     for _ in 0..2000 {
         let study = random.study();
@@ -372,7 +331,7 @@ fn what_a_study_file_cannot_hold_is_reported() {
     let refine = Some(Refine::Outputs(Vec::new()));
     let message = ran(Study { case_set, refine, ..Study::default() });
     assert!(message.contains("map.refine"), "{message}");
-    let mut random = Random(ChaCha8Rng::seed_from_u64(4));
+    let mut random = Random::new(4);
     let mut branch = random.branch(&Study::default(), "one".to_owned());
     branch.range.reverse();
     let reversed = Study { branches: vec![branch], ..Study::default() };
