@@ -11,7 +11,9 @@ use super::phases::Phases;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
 use crate::capsule::description::CAPSULE;
-use crate::capsule::{self, CapsuleParameters as _, DriveKind, Reaction, Resistance, Switching};
+use crate::capsule::{
+    self, CapsuleParameters as _, DriveKind, Reaction, Release, Resistance, Switching,
+};
 use crate::description::{Description, Parameter, Parameters, Remark, State};
 use crate::explore::{case_json, remarks, told};
 use crate::motion::{Case, Orbit, Simulation, SimulationSize};
@@ -37,14 +39,14 @@ pub struct Simulate {
     /// Take a case of this study, or of the study in this file of results, with its parameters, its start and the study's protocol.
     #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2",
         "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles", "max_steps",
-        "friction_switching", "resistance", "drive", "drive_reaction"])]
+        "friction_switching", "resistance", "drive", "drive_reaction", "release"])]
     study: Option<PathBuf>,
     /// Its number, counted from 0 with the last axis fastest, as in the reports of failures.
     #[arg(long, requires = "study")]
     case: Option<usize>,
     /// Another model than the capsule, of those that this program knows; its parameters are given by --set.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["study", "omega", "p_d", "k2", "delta",
-        "friction_switching", "resistance", "drive", "drive_reaction"])]
+        "friction_switching", "resistance", "drive", "drive_reaction", "release"])]
     model: Option<String>,
     /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
@@ -90,11 +92,16 @@ pub struct Simulate {
     resistance: Resistance,
     /// How the force on the mass depends on the phase of the drive: p_d cos(phase); p_0 + p_d for a share `duty` of the period, then
     /// p_0 + p_low, with edges that last a share `rise` of it in a trapezoid; or p_0 + p_d cos(phase) + p_2 cos(2 phase + phase_2).
+    /// In place of a force the motion of the mass relative to the capsule may be prescribed: as a sum of two harmonics, or in two or
+    /// three phases (studies/README.md).
     #[arg(long, value_parser = named(&DriveKind::NAMES), default_value = "harmonic")]
     drive: DriveKind,
     /// What takes up the reaction of the drive: none, as of an external field, or the capsule, as of an actuator in it.
     #[arg(long, value_parser = named(&Reaction::NAMES), default_value = "none")]
     drive_reaction: Reaction,
+    /// When the mass leaves a stop that damps: where it met the stop, whose force may pull it before, or where that force falls to zero.
+    #[arg(long, value_parser = named(&Release::NAMES), default_value = "geometry")]
+    release: Release,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -179,6 +186,7 @@ impl Simulate {
             parameters.resist_by(self.resistance);
             parameters.drive_by(self.drive);
             parameters.react_on(self.drive_reaction);
+            parameters.release_by(self.release);
         }
         let given = self.given(model, &mut faults);
         set_given(&mut parameters, &given, &mut faults);
@@ -287,6 +295,14 @@ fn pairs<'t>(
 /// Sets the values that are given; faults are noted, as where a parameter is given twice.
 fn set_given(parameters: &mut Parameters, given: &[Given<'_>], faults: &mut Vec<String>) {
     for (i, Given { option, parameter, text }) in given.iter().enumerate() {
+        let stead =
+            parameter.replaces().filter(|it| given.iter().any(|other| other.parameter == *it));
+        if let Some(replaced) = stead {
+            let (own, replaced) = (parameter.symbol(), replaced.symbol());
+            faults.push(format!(
+                "{option}: {own} stands in place of {replaced}: leave one of them out"
+            ));
+        }
         if given[..i].iter().any(|other| other.parameter == *parameter) {
             faults.push(format!("{option}: {} is given twice", parameter.symbol()));
         }

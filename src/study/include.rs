@@ -7,6 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::document::Faults;
 use super::named_model::model_in;
+use crate::description::{Description, Parameter};
 use crate::quantity::printable::one_line;
 
 /// The key by which a study names its parameter file.
@@ -68,11 +69,22 @@ pub fn include(study: &str, file: &str, parameters: &str) -> Result<Included, St
                 model.name
             ));
         }
-        if !own.iter().any(|it| it == symbol) {
+        if !is_settled(model, symbol, &own) {
             lines.push(format!("{symbol} = {} # from {shown}", &parameters[value.span()]));
         }
     }
     Ok(put_in(study, file, &lines))
+}
+
+/// Whether a study says itself what a parameter is: by its key, or by that of one of which either stands in place of the other.
+fn is_settled(model: &'static Description, symbol: &str, own: &[String]) -> bool {
+    own.iter().any(|key| {
+        let [one, other] = [symbol, key].map(|it| model.parameter(it));
+        let replaces = |one: Option<Parameter>, other| {
+            one.and_then(Parameter::replaces).is_some_and(|it| Some(it) == other)
+        };
+        key == symbol || replaces(one, other) || replaces(other, one)
+    })
 }
 
 /// The line of a byte of a text, counted from 1.

@@ -12,9 +12,11 @@ pub(super) fn read_parameters(
     let model = top.model();
     let mut parameters = Parameters::of(model);
     let table = top.table("parameters");
+    if let Some(table) = &table {
+        read_choices(table, &mut parameters);
+    }
     let given = read_values(top, table.as_ref(), varied, &mut parameters);
     let Some(table) = table else { return (parameters, Vec::new()) };
-    read_choices(&table, &mut parameters);
     table.finish();
     let missing =
         (model.rules.missing)(&parameters, &|it| given.contains(&it), &|it| varies(varied, it));
@@ -40,14 +42,17 @@ fn read_values(
     parameters: &mut Parameters,
 ) -> Vec<Parameter> {
     let mut given = Vec::new();
-    // The period of the drive stands for its frequency.
-    let period = top.model().drive_period();
-    let has_period = period.is_some_and(|it| {
+    let is_told = |it: Parameter| {
         varies(varied, it) || table.is_some_and(|table| table.entry(it.symbol()).is_some())
-    });
-    let stands_in = |it| has_period && Some(it) == top.model().drive_frequency();
+    };
     for parameter in top.model().parameters() {
         let on_axis = varies(varied, parameter);
+        let in_its_stead = parameter.replaced_by().find(|it| is_told(*it));
+        if let Some(other) = in_its_stead.filter(|_| is_told(parameter)) {
+            let (symbol, other) = (parameter.symbol(), other.symbol());
+            let text = format!("`{other}` stands in place of `{symbol}`: leave one of them out");
+            top.conflict(&format!("parameters.{other}"), &text);
+        }
         match table.and_then(|table| table.entry(parameter.symbol())) {
             Some(entry) if on_axis => entry.fault("is given here and on an axis"),
             Some(entry) => {
@@ -55,7 +60,11 @@ fn read_values(
                 parameters[parameter] = value.unwrap_or(parameters[parameter]);
                 given.push(parameter);
             }
-            None if parameter.is_asked_for() && !on_axis && !stands_in(parameter) => {
+            None if parameter.is_asked_for()
+                && !on_axis
+                && in_its_stead.is_none()
+                && (top.model().rules.no_effect)(parameters, parameter).is_none() =>
+            {
                 let expected = format!("a value for the {} here or an axis", parameter.meaning());
                 top.missing(&format!("parameters.{}", parameter.symbol()), &expected);
             }

@@ -9,7 +9,7 @@ use super::{
     Axis, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit, Refine, Spacing,
     Study,
 };
-use crate::description::{Presence, State};
+use crate::description::{Parameter, Presence, State};
 use crate::of::default_model;
 use crate::orbit::{HistorySpan, Protocol};
 
@@ -87,8 +87,9 @@ impl Study {
             .base
             .stated()
             .filter(|(it, _)| it.presence() == Presence::Always || self.base.is_given(*it));
+        let varies = |it: Parameter| varied.contains(&Coordinate::Parameter(it));
         for (parameter, value) in written {
-            if !varied.contains(&Coordinate::Parameter(parameter)) {
+            if !varies(parameter) && !parameter.replaced_by().any(varies) {
                 document.put(parameter.symbol(), quantity(value, parameter.dimension()));
             }
         }
