@@ -269,7 +269,6 @@ refine = { progression_speed = "1 mm/s", work_positive = "1 mJ" }
 "#,
     r#"
 [parameters]
-k2 = "2.42 kN/m"
 delta = "3.5 mm"
 p_d = "4 N"
 drive = "trapezoid"
@@ -287,6 +286,13 @@ k3 = "20 kN/m"
 delta_3 = "4 mm"
 k2_damping = "0.1 N s/m"
 k3_damping = "0.1 N s/m"
+restitution = 0.5
+release = "force"
+xi_1 = "1 mm"
+xi_2 = "1 mm"
+stroke = "1 mm"
+share_1 = 0.2
+share_2 = 0.3
 k1_cubic = "1e5 N/m3"
 k2_cubic = "1e6 N/m3"
 mu_s_forward = 0.6

@@ -112,6 +112,53 @@ fn what_cannot_be_is_refused_with_the_reason() {
     refused("drive = \"sqare\"\n", &["drive", "square", "trapezoid"]);
     refused("duty = 1.0\ndrive = \"square\"\n", &["duty", "above 0 and below 1"]);
     dir.run(&["simulate", "--drive", "trapezoid", "--set", "rise=0.6"]).refused(&["rise = 0.6"]);
+    refused("restitution = 0.5\n", &["`restitution` stands in place of `k2`"]);
+    refused("drive_period = \"80 ms\"\n", &["`drive_period` stands in place of `omega`"]);
+    refused(
+        "drive = \"three-phase\"\nshare_1 = 0.25\n[start]\nsection_phase = \"90 deg\"\n",
+        &["share_1", "lies on the edge of the drive at 0.25 of its period"],
+    );
+    refused("restitution = 1.5\n", &["restitution", "from 0 to 1"]);
+    dir.run(&["simulate", "--k2", "3 kN/m", "--set", "restitution=0.5"])
+        .refused(&["restitution stands in place of k2"]);
+    refused(
+        "drive = \"three-phase\"\nshare_1 = 0.6\nshare_2 = 0.5\n",
+        &["share_1", "below 1", "third phase"],
+    );
+    let two_phase = ["simulate", "--drive", "two-phase", "--section-phase"];
+    dir.run(&[&two_phase[..], &["0"]].concat()).refused(&["the velocities jump there"]);
+    dir.run(&[&two_phase[..], &["90 deg"]].concat()).done();
+}
+
+/// Where the motion of the mass is prescribed, and where its stop is rigid, a study need not say what has no effect.
+#[test]
+fn what_has_no_effect_is_not_asked_for() {
+    let dir = WorkDir::new();
+    let text = r#"
+[parameters]
+drive = "prescribed"
+xi_1 = "5 mm"
+mu_d_backward = 0.5
+omega = "30 rad/s"
+[[axes]]
+name = "xi_1"
+from = "5 mm"
+to = "9 mm"
+points = 3
+"#;
+    dir.put("both.toml", text);
+    dir.run(&["sweep", "both.toml", "--dry-run"]).refused(&["xi_1", "here and on an axis"]);
+    dir.put("p.toml", text.replacen("xi_1 = \"5 mm\"\n", "", 1));
+    dir.run(&["sweep", "p.toml", "--output", "p.h5", "--no-figures"]).done();
+    let verified = dir.run(&["verify", "p.h5", "--cases", "3"]).done();
+    assert!(verified.out.contains("came out the same"), "{}", verified.out);
+    let rigid =
+        "[parameters]\nrestitution = 0.4\nomega = \"60 rad/s\"\np_d = \"5 N\"\ndelta = \"1 mm\"\n";
+    dir.put("r.toml", rigid);
+    dir.run(&["sweep", "r.toml", "--output", "r.h5"]).done();
+    let told = dir.run(&["simulate", "--study", "r.h5", "--case", "0", "--json"]).json();
+    assert_eq!(told["parameters"]["restitution"], 0.4);
+    assert!(told["parameters"].get("k2").is_none(), "{told}");
 }
 
 #[test]
@@ -135,10 +182,53 @@ fn what_has_no_effect_or_runs_away_is_told_before_it_is_computed() {
             "not the force at which rest ends, 4.1437 N",
         ],
     );
+    told("release = \"force\"\n", &["release = \"force\" has no effect"]);
     told("incline = \"-60 deg\"\n", &["and what holds the capsule at rest", "`runaway`"]);
     // Near rest friction holds the first, which creeps on; nothing holds the second.
     let pulses = ["simulate", "--drive", "square", "--set", "duty=0.9"];
     assert!(dir.run(&pulses).done().out.contains("outcome: periodic (1)"));
     let ran = dir.run(&["simulate", "--set", "incline=-60 deg"]).done().out;
     assert!(ran.contains("nothing holds the mean force"), "{ran}");
+}
+
+/// Both stops are drawn in histories, phase portraits and basins: a dashed line for each.
+#[test]
+fn both_stops_are_drawn() {
+    let dir = WorkDir::new();
+    let figures = r#"
+k3 = "20 kN/m"
+delta_3 = "4 mm"
+[[axes]]
+name = "start_r"
+from = "-5 mm"
+to = "5 mm"
+points = 4
+[[axes]]
+name = "start_y1"
+from = "-1 m/s"
+to = "1 m/s"
+points = 4
+[history]
+cycles = 2
+[[figures]]
+name = "history"
+kind = "history"
+of = ["history_r"]
+at = { start_r = "5 mm", start_y1 = "1 m/s" }
+[[figures]]
+name = "portrait"
+kind = "phase-portrait"
+at = { start_r = "5 mm", start_y1 = "1 m/s" }
+[[figures]]
+name = "basin"
+kind = "basin"
+"#;
+    dir.put("stops.toml", format!("{FIG5}{figures}"));
+    dir.run(&["sweep", "stops.toml", "--formats", "svg"]).done();
+    // The legend of histories and basins has one more.
+    for (figure, lines) in [("history", 3), ("portrait", 2), ("basin", 3)] {
+        let svg = std::fs::read_to_string(dir.path(&format!("results/stops/{figure}.svg")));
+        let dashed = svg.expect("a figure").matches("stroke-dasharray").count();
+        assert_eq!(dashed, lines, "{figure}");
+    }
 }
