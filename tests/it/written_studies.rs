@@ -100,9 +100,19 @@ impl Random {
         }
     }
 
+    /// A parameter that neither stands in place of one of these coordinates nor has one of them in its place.
+    fn free_of(&mut self, others: &[Coordinate]) -> Parameter {
+        let drawn = self.one(Parameter::ALL);
+        let own = Coordinate::Parameter(drawn.into());
+        let is_bound =
+            others.iter().any(|it| replaced(*it) == Some(own) || replaced(own) == Some(*it));
+        if is_bound { Parameter::M1 } else { drawn }
+    }
+
     fn branch(&mut self, study: &Study, name: String) -> Continuation {
-        let along = self.one(Parameter::ALL);
-        let second = self.one(Parameter::ALL);
+        let varied = study.case_set.varied();
+        let along = self.free_of(&varied);
+        let second = self.free_of(&[varied, vec![Coordinate::Parameter(along.into())]].concat());
         let mut parameters = study.base.clone();
         let mut around = |parameter: Parameter, parameters: &mut Parameters| {
             let ends = self.ends(parameter.allowed());
