@@ -133,6 +133,7 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
     /// Two points on the two sides of the boundary, close together.
     fn together(&self, mut ends: [[f64; D]; 2], first: u32) -> [[f64; D]; 2] {
         let metric = self.system.metric();
+        ends[1] = metric.beside(&ends[1], &ends[0]);
         while metric.distance(&ends[0], &ends[1]) > CLOSEST * metric.largest(&ends) {
             let shares = (1..PARTS).map(|number| number as f64 / PARTS as f64);
             let inner = shares.map(|share| -> [f64; D] {
@@ -229,7 +230,7 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
         for _ in 0..POWERS {
             let image: [f64; D] =
                 std::array::from_fn(|i| (0..D).map(|j| jacobian[i][j] * vector[j]).sum());
-            let size = metric.size(&image);
+            let size = metric.length(&image);
             vector = image.map(|it| it / size);
         }
         vector

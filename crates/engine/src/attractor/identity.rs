@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn neighbours_are_found_as_among_all_pairs() {
-        let metric = Metric { scales: [20.0, 0.5] };
+        let metric = Metric::new([20.0, 0.5]);
         let a = henon([0.1, 0.1], 300);
         for b in [henon([0.3, -0.1], 300), henon([0.3, -0.1], 150), a.clone()] {
             let shifted: Vec<[f64; 2]> = b.iter().map(|[x, y]| [x + 0.003, *y]).collect();

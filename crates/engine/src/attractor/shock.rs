@@ -121,7 +121,8 @@ impl<const D: usize> Search<'_, D> {
 
     /// How far a point is from the section point, in the units of the metric.
     fn shift(&self, point: &[f64; D]) -> [f64; D] {
-        std::array::from_fn(|i| (point[i] - self.from[i]) * self.metric.scales[i])
+        let shift = self.metric.difference(point, &self.from);
+        std::array::from_fn(|i| shift[i] * self.metric.scales[i])
     }
 
     /// The point so far from the section point.
@@ -144,7 +145,7 @@ impl<const D: usize> Search<'_, D> {
 mod tests {
     use super::*;
 
-    const METRIC: Metric<3> = Metric { scales: [20.0, 1.0, 0.5] };
+    const METRIC: Metric<3> = Metric::new([20.0, 1.0, 0.5]);
 
     fn scaled(point: &[f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| point[i] * METRIC.scales[i])

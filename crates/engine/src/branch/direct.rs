@@ -1,6 +1,6 @@
 //! Whether a branch leads from one known orbit to another in a single step: told from the derivatives of the two.
 
-use crate::flow::{Switched, System};
+use crate::flow::{Metric, Switched, System};
 use crate::orbit::matrix::{Matrix, determinant, solve};
 use crate::orbit::passage::{Integrator, ReturnRequest};
 use crate::orbit::return_map::Cycles;
@@ -37,13 +37,14 @@ pub struct Linearised<E, const D: usize> {
     events: Vec<E>,
     /// Its local extrema: when they are met after the first point [cycles], and how far they are below the surface.
     margins: Vec<(f64, f64)>,
+    metric: Metric<D>,
 }
 
 impl<E, const D: usize> Linearised<E, D> {
     /// How far it gets from one of its section points in so many cycles.
     fn moves(&self, first: usize, cycles: usize) -> [f64; D] {
         let [a, b] = [first, (first + cycles) % self.points.len()].map(|at| self.points[at]);
-        std::array::from_fn(|i| b[i] - a[i])
+        self.metric.difference(&b, &a)
     }
 }
 
@@ -59,6 +60,7 @@ pub fn linearised<M: System<D>, const D: usize>(
     if M::Single::AUTONOMOUS || !along.system.has(along.parameter) {
         return None;
     }
+    let metric = along.system.metric();
     let mut product: Matrix<D> = shifted(&[[0.0; D]; D], 1.0);
     let (mut events, mut margins) = (Vec::new(), Vec::new());
     let (mut residuals, mut cycles) = (Vec::new(), Vec::new());
@@ -75,7 +77,7 @@ pub fn linearised<M: System<D>, const D: usize>(
         });
         let passage = followed.ok()?;
         let (end, next) = (passage.end, points[(i + 1) % points.len()]);
-        residuals.push(std::array::from_fn(|j| end[j] - next[j]));
+        residuals.push(metric.difference(&end, &next));
         let of_cycle = (passage.jacobian, passage.by_parameter);
         (product, of_end) = (times(&of_cycle.0, &product), carried(&of_cycle, &of_end));
         cycles.push(of_cycle);
@@ -88,7 +90,8 @@ pub fn linearised<M: System<D>, const D: usize>(
         slopes.push(carried(cycle, &slopes[slopes.len() - 1]));
     }
     let (points, events) = (points.to_vec(), cyclic(&events));
-    Some(Linearised { value, points, slopes, residuals, jacobian: product, events, margins })
+    let jacobian = product;
+    Some(Linearised { value, points, slopes, residuals, jacobian, events, margins, metric })
 }
 
 /// The product of two matrices.
@@ -189,7 +192,8 @@ impl<E, const D: usize> Step<'_, E, D> {
     /// How far the other orbit is from where this one, moved so, would be.
     fn error(&self, shift: usize, by: &[f64; D]) -> f64 {
         let (here, there) = (self.from.points[0], self.to.points[shift]);
-        self.length(&std::array::from_fn(|i| there[i] - here[i] - by[i]))
+        let apart = self.from.metric.difference(&there, &here);
+        self.length(&std::array::from_fn(|i| apart[i] - by[i]))
     }
 
     /// Whether no extremum crosses its surface: of the same events one may begin where another ceases.

@@ -139,8 +139,10 @@ impl<M: System<D>, const D: usize, const W: usize> Equations<W> for Locus<M, D, 
             _ => self.grazing(at)?,
         };
         let (mut residual, mut rows) = ([0.0; W], [[0.0; W]; W]);
+        let point: [f64; D] = std::array::from_fn(|i| at[i] * self.units[i]);
+        let moved = system.metric().difference(&std::array::from_fn(|i| end[i].value), &point);
         for (i, end) in end.iter().enumerate() {
-            residual[i] = (end.value - at[i] * self.units[i]) / self.units[i];
+            residual[i] = moved[i] / self.units[i];
             rows[i] = end.gradient.map(|part| part / self.units[i]);
             rows[i][i] -= 1.0;
         }
@@ -172,6 +174,7 @@ impl<M: System<D>, const D: usize, const W: usize> Periodic<D, W> for Locus<M, D
         let raw: [f64; W] = std::array::from_fn(|i| at[i] * self.units[i]);
         let point = std::array::from_fn(|i| raw[i]);
         let end = self.family.passage(point, &self.free(&raw)).ok()?.end;
-        Some(std::array::from_fn(|i| (end[i] - raw[i]) / self.units[i]))
+        let moved = self.family.system.metric().difference(&end, &point);
+        Some(std::array::from_fn(|i| moved[i] / self.units[i]))
     }
 }

@@ -133,7 +133,8 @@ impl<M: System<D>, const D: usize, const U: usize> Periodic<D, U> for Orbits<'_,
     fn displacement(&self, at: &[f64; U]) -> Option<[f64; D]> {
         let section = self.section(at);
         let passage = self.family.passage(section, &[(self.along, self.parameter(at))]).ok()?;
-        Some(std::array::from_fn(|i| (passage.end[i] - section[i]) / self.units[i]))
+        let moved = self.family.system.metric().difference(&passage.end, &section);
+        Some(std::array::from_fn(|i| moved[i] / self.units[i]))
     }
 }
 
@@ -159,8 +160,9 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<'_, M
             watched: true,
         })?;
         let (mut residual, mut rows, mut jacobian) = ([0.0; U], [[0.0; U]; U], [[0.0; D]; D]);
+        let moved = system.metric().difference(&passage.end, &point);
         for i in 0..D {
-            residual[i] = (passage.end[i] - point[i]) / self.units[i];
+            residual[i] = moved[i] / self.units[i];
             jacobian[i] = passage.jacobian[i].map(|part| part / self.units[i]);
             rows[i][..D].copy_from_slice(&jacobian[i]);
             rows[i][D] = passage.by_parameter[i] / self.units[i];

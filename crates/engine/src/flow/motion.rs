@@ -176,7 +176,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     #[inline(always)]
     pub fn begin_cycle(&mut self, system: &S, mask: L::Mask) {
         self.time = L::select(mask, L::splat(0.0), self.time);
-        system.begin_cycle(mask, &mut self.mode);
+        system.begin_cycle(mask, &mut self.mode, &mut self.state);
     }
 
     /// Where a motion cannot go on; [`Motion::breakdown`] tells why.

@@ -96,7 +96,7 @@ macro_rules! own_system {
             }
             fn metric(&self) -> $crate::flow::Metric<$coordinates> {
                 let scales: fn(&Self) -> [f64; $coordinates] = $scales;
-                $crate::flow::Metric { scales: scales(self) }
+                $crate::flow::Metric::new(scales(self))
             }
             fn observer(&self, _points: usize) {}
         }

@@ -95,9 +95,10 @@ pub trait Switched<L: Lane> {
         Self::Mode::default()
     }
 
-    /// Begins the next cycle of the drive where `mask`: what a mode counts within a cycle, as the edges that have passed, starts again.
+    /// Begins the next cycle of the drive where `mask`: what a mode counts within a cycle, as the edges that have passed, starts again,
+    /// and a coordinate that repeats comes back to the range in which it is told.
     #[inline(always)]
-    fn begin_cycle(&self, _mask: L::Mask, _mode: &mut Self::Mode) {}
+    fn begin_cycle(&self, _mask: L::Mask, _mode: &mut Self::Mode, _state: &mut Self::State) {}
 
     /// Writes the series of the motion in `mode` from `state` at `time` into `jet`, all of it.
     fn expand(&self, mode: &Self::Mode, time: L, state: &Self::State, jet: &mut Self::Jet);

@@ -223,7 +223,7 @@ pub fn power_term<L: Lane>(a: &Series<L>, exponent: L, p: &Series<L>, k: usize) 
 
 /// Coefficient `k > 0` of the integral of `a' b`: `(1/k) sum_{j=1..k} j a_j b_(k-j)`.
 #[inline(always)]
-fn slope_product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {
+pub fn slope_product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {
     let mut sum = L::splat(0.0);
     for j in 1..k + 1 {
         sum = sum + L::splat(j as f64) * a[j] * b[k - j];

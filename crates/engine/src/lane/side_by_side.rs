@@ -106,16 +106,18 @@ impl SideBySide for () {
 #[macro_export]
 macro_rules! side_by_side {
     (
-        $name:ident { $($number:ident),* $(,)? }
+        $name:ident $(<const $constant:ident: $kind:ty>)? { $($number:ident),* $(,)? }
         $(masks { $($mask:ident),* $(,)? })?
         $(with { $($part:ident),* $(,)? })?
         $(alike { $($alike:ident),* $(,)? })?
     ) => {
-        impl<L: $crate::lane::Lane> $crate::lane::SideBySide for $name<L> {
-            type One = $name<f64>;
+        impl<L: $crate::lane::Lane $(, const $constant: $kind)?> $crate::lane::SideBySide
+            for $name<L $(, $constant)?>
+        {
+            type One = $name<f64 $(, $constant)?>;
 
             #[inline(always)]
-            fn splat(one: &$name<f64>) -> Self {
+            fn splat(one: &$name<f64 $(, $constant)?>) -> Self {
                 $name {
                     $($number: <L as $crate::lane::Lane>::splat(one.$number),)*
                     $($($mask: $crate::lane::Mask::splat(one.$mask),)*)?
@@ -124,7 +126,7 @@ macro_rules! side_by_side {
                 }
             }
             #[inline(always)]
-            fn lane(&self, index: usize) -> $name<f64> {
+            fn lane(&self, index: usize) -> $name<f64 $(, $constant)?> {
                 $name {
                     $($number: $crate::lane::Lane::lane(self.$number, index),)*
                     $($($mask: $crate::lane::Mask::lane(self.$mask, index),)*)?
@@ -133,7 +135,7 @@ macro_rules! side_by_side {
                 }
             }
             #[inline(always)]
-            fn put(&mut self, index: usize, one: &$name<f64>) {
+            fn put(&mut self, index: usize, one: &$name<f64 $(, $constant)?>) {
                 $(self.$number = $crate::lane::Lane::with_lane(self.$number, index, one.$number);)*
                 $($(self.$mask = $crate::lane::Mask::with_lane(self.$mask, index, one.$mask);)*)?
                 $($($crate::lane::SideBySide::put(&mut self.$part, index, &one.$part);)*)?

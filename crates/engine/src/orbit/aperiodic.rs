@@ -317,7 +317,9 @@ impl<const D: usize> Follower<D> {
 pub fn irregularity<const D: usize>(points: &[[f64; D]], metric: &Metric<D>, size: f64) -> f64 {
     let (first, second) = points.split_at(points.len() / 2);
     let [a, b] = [first, second].map(smooth_mean);
-    metric.relative(&std::array::from_fn(|i| a[i] - b[i]), size)
+    // The mean of a coordinate that repeats depends on where it is cut.
+    let apart = std::array::from_fn(|i| if metric.repeats[i] { 0.0 } else { a[i] - b[i] });
+    metric.relative(&apart, size)
 }
 
 fn smooth_mean<const D: usize>(points: &[[f64; D]]) -> [f64; D] {
@@ -341,8 +343,7 @@ fn recurrence<const D: usize>(
     size: f64,
 ) -> Option<Settled> {
     let (last, before) = points.split_last()?;
-    let distance =
-        |point: &[f64; D]| metric.relative(&std::array::from_fn(|i| point[i] - last[i]), size);
+    let distance = |point: &[f64; D]| metric.relative(&metric.difference(point, last), size);
     let distances = before.iter().rev().take(LONGEST).map(distance);
     let (cycles, within) = (1..).zip(distances).find(|&(_, distance)| distance <= RECURS)?;
     Some(Settled { repeats_after: cycles, within, size })

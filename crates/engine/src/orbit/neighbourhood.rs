@@ -45,12 +45,13 @@ pub struct Neighbourhood<const D: usize> {
     form: Matrix<D>,
     /// The coordinates that are exactly zero inside.
     at_rest: [bool; D],
+    metric: Metric<D>,
 }
 
 impl<const D: usize> Neighbourhood<D> {
     /// Whether a point is inside.
     pub fn contains(&self, point: &[f64; D]) -> bool {
-        let away: [f64; D] = std::array::from_fn(|i| point[i] - self.centre[i]);
+        let away = self.metric.difference(point, &self.centre);
         if (0..D).any(|i| self.at_rest[i] && away[i] != 0.0) {
             return false;
         }
@@ -96,7 +97,7 @@ impl<const D: usize> Neighbourhood<D> {
             std::array::from_fn(|i| centre[i] + radius * along[i] / metric.scales[i])
         };
         let is_drawn_in = |passage: &Passage<M::Event, D>, radius: f64| {
-            let away = std::array::from_fn(|i| metric.scales[i] * (passage.end[i] - centre[i]));
+            let away = scaled_vector(&metric, metric.difference(&passage.end, &centre));
             let rests = (0..D).all(|i| !at_rest[i] || passage.end[i] == 0.0);
             rests
                 && passage.events == own.events
@@ -118,7 +119,7 @@ impl<const D: usize> Neighbourhood<D> {
                 let form = std::array::from_fn(|i| {
                     std::array::from_fn(|j| norm.form[i][j] * scales[i] * scales[j] / (kept * kept))
                 });
-                return Some(Neighbourhood { centre, form, at_rest });
+                return Some(Neighbourhood { centre, form, at_rest, metric });
             }
             radius *= 0.5;
         }
@@ -196,7 +197,7 @@ impl<'a, const D: usize> LinearMap<'a, D> {
 
     /// How far a point is from the orbit's, in the units of the metric.
     fn away(&self, point: &[f64; D]) -> [f64; D] {
-        std::array::from_fn(|i| self.metric.scales[i] * (point[i] - self.centre[i]))
+        scaled_vector(self.metric, self.metric.difference(point, &self.centre))
     }
 
     /// The point in a direction on the ellipsoid of a radius.
@@ -209,7 +210,7 @@ impl<'a, const D: usize> LinearMap<'a, D> {
     /// too.
     fn leads(&self, point: &[f64; D], image: &[f64; D], own: &[f64; D]) -> bool {
         let from = self.away(point);
-        let to: [f64; D] = std::array::from_fn(|i| self.metric.scales[i] * (image[i] - own[i]));
+        let to = scaled_vector(self.metric, self.metric.difference(image, own));
         let rest = std::array::from_fn(|i| {
             to[i] - self.map[i].iter().zip(&from).map(|(a, x)| a * x).sum::<f64>()
         });
@@ -225,7 +226,8 @@ impl<'a, const D: usize> LinearMap<'a, D> {
             let of = |j: usize| self.norm.form[i][j] * scales[i] * scales[j] / (radius * radius);
             std::array::from_fn(of)
         });
-        Neighbourhood { centre: self.centre, form, at_rest: self.at_rest }
+        let (centre, at_rest) = (self.centre, self.at_rest);
+        Neighbourhood { centre, form, at_rest, metric: *self.metric }
     }
 }
 
@@ -315,6 +317,11 @@ fn lattice<const D: usize>(at_rest: &[bool; D]) -> Vec<[f64; D]> {
     let length = |it: &[f64; D]| it.iter().map(|x| x * x).sum::<f64>().sqrt();
     directions.retain(|it| length(it) > 0.0);
     directions.iter().map(|it| it.map(|x| x / length(it))).collect()
+}
+
+/// A difference in the units of a metric.
+fn scaled_vector<const D: usize>(metric: &Metric<D>, difference: [f64; D]) -> [f64; D] {
+    std::array::from_fn(|i| metric.scales[i] * difference[i])
 }
 
 /// A Jacobian in the units of a metric, without what is at rest.

@@ -83,14 +83,14 @@ where
 {
     /// The point nearest to a periodic orbit that was met, with the direction in which it is neutral.
     fn closed(&mut self, start: &[f64; D]) -> Result<Option<Neutral<D>>, Reason> {
-        let Metric { scales } = self.metric;
+        let Metric { scales, .. } = self.metric;
         let mut point = *start;
         let mut best: Option<Neutral<D>> = None;
         let mut first_residual = f64::INFINITY;
         for correction in 0..CORRECTIONS {
             let Image { end, jacobian } = (self.image_of)(&point)?;
             self.followed += self.cycles;
-            let gap: [f64; D] = std::array::from_fn(|i| end[i] - point[i]);
+            let gap = self.metric.difference(&end, &point);
             let residual = self.metric.relative(&gap, self.size);
             if correction == 0 {
                 first_residual = residual;

@@ -49,7 +49,7 @@ pub fn close<const D: usize>(
     for correction in 0..=CORRECTIONS {
         let Image { end, jacobian } = image_of(&point)?;
         followed += cycles;
-        let gap: [f64; D] = std::array::from_fn(|i| end[i] - point[i]);
+        let gap = metric.difference(&end, &point);
         let residual = metric.relative(&gap, size);
         if correction == 0 {
             first_residual = residual;

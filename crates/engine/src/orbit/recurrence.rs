@@ -76,10 +76,12 @@ impl<const D: usize> Recurrence<D> {
         self.scale
     }
 
-    /// The last `N` points that are `k` cycles apart, oldest first, if there are so many.
+    /// The last `N` points that are `k` cycles apart, oldest first, if there are so many; a coordinate that repeats is told as it is
+    /// nearest to that of the newest.
     pub fn last<const N: usize>(&self, k: usize) -> Option<[[f64; D]; N]> {
         let first = self.points.len().checked_sub((N - 1) * k + 1)?;
-        Some(std::array::from_fn(|i| self.points[first + i * k]))
+        let newest = self.points[first + (N - 1) * k];
+        Some(std::array::from_fn(|i| self.metric.beside(&self.points[first + i * k], &newest)))
     }
 
     /// Takes the next section point; says what the motion has settled to, if it has.
@@ -99,7 +101,7 @@ impl<const D: usize> Recurrence<D> {
         self.nearest = None;
         for k in 1..=self.longest.min(newest) {
             let difference = self.difference(newest, newest - k);
-            let apart = self.metric.size(&difference);
+            let apart = self.metric.length(&difference);
             // Most points are neither near nor a repeat, which takes no division to see.
             if apart > CLEARLY * DISTINCT * least_apart && apart > beyond {
                 self.repeats[k] = 0;
@@ -149,8 +151,7 @@ impl<const D: usize> Recurrence<D> {
     /// The difference of two section points, by their places.
     #[inline]
     fn difference(&self, a: usize, b: usize) -> [f64; D] {
-        let (a, b) = (&self.points[a], &self.points[b]);
-        std::array::from_fn(|i| a[i] - b[i])
+        self.metric.difference(&self.points[a], &self.points[b])
     }
 }
 
@@ -159,7 +160,7 @@ mod tests {
     use super::*;
 
     fn period_of(point: impl Fn(usize) -> f64, cycles: usize) -> Option<usize> {
-        let mut recurrence = Recurrence::new(16, 1e-11, Metric { scales: [1.0; 3] });
+        let mut recurrence = Recurrence::new(16, 1e-11, Metric::new([1.0; 3]));
         (0..cycles)
             .find_map(|n| recurrence.meet([point(n), 1.0, 0.0]))
             .map(|found| found.repeats_after)
@@ -203,7 +204,7 @@ mod tests {
 
     #[test]
     fn the_nearest_point_is_that_of_all_quotients() {
-        let metric = Metric { scales: [3.0, 1.0, 1e-3] };
+        let metric = Metric::new([3.0, 1.0, 1e-3]);
         // Chaos, windows of periods 3 and 5 and the way into them, and rest.
         for rate in [3.99, 3.83, 3.7389, 3.5, 0.0] {
             let mut recurrence = Recurrence::new(16, 1e-11, metric);

@@ -26,10 +26,12 @@ pub(super) fn from_rest<M: System<D>, const D: usize>(
     integrator: &dyn Integrator<M, D>,
 ) -> Option<(Certified<D>, Settled)> {
     let attracts = orbit.multipliers[0].abs() < 1.0;
-    if M::Single::AUTONOMOUS || orbit.neutral.is_some() || !attracts {
+    let metric = system.metric();
+    // Where a coordinate repeats, no point of the section is the origin of all motions.
+    let has_origin = !M::Single::AUTONOMOUS && metric.repeats.iter().all(|it| !it);
+    if !has_origin || orbit.neutral.is_some() || !attracts {
         return None;
     }
-    let metric = system.metric();
     let known_to = OBLIQUE * ROUNDING * settled.size / least_from_one(&orbit.multipliers);
     if metric.size(&orbit.section) > known_to {
         return None;

@@ -19,7 +19,7 @@ const TOLERANCE: f64 = 1e-12;
 
 /// The size of a section point under a drive of this frequency [m/s].
 fn size(omega: f64, point: &[f64; 3]) -> f64 {
-    (Metric { scales: [omega, 1.0, 1.0] }).size(point)
+    Metric::new([omega, 1.0, 1.0]).size(point)
 }
 
 /// The request to follow the orbit near a section point.
@@ -191,7 +191,7 @@ pub fn two_attractors(omega: f64) -> Parameters {
 /// What the motion settles to from a section point.
 pub fn settled(p: &Parameters, point: impl Into<Section>) -> Orbit {
     let [r, y1, y2] = point.into().array();
-    settle(p, 0.0, State { r, y1, x2: 0.0, y2 }, &Protocol::default())
+    settle(p, 0.0, State::of([r, y1, 0.0, y2]), &Protocol::default())
 }
 
 /// The moving orbit at 130 rad/s followed in the frequency.
@@ -232,7 +232,7 @@ fn hysteresis_is_bounded_by_folds_with_an_unstable_branch_between() {
         assert!(critical.re > 1.0, "{}", point.parameter);
         let [r, y1, y2] = point.section[0].array();
         let p = two_attractors(point.parameter);
-        let start = State { r, y1, x2: 0.0, y2 };
+        let start = State::of([r, y1, 0.0, y2]);
         let end = simulate(&p, 0.0, start, 1, TOLERANCE).section[1];
         let apart = [end.r - r, end.y1 - y1, end.y2 - y2];
         let omega = point.parameter;
@@ -366,7 +366,7 @@ fn the_equation_as_printed_is_followed_too() {
     for point in points.iter().filter(|it| it.multipliers[0].abs() < 0.9).step_by(3) {
         p[Parameter::Pd] = point.parameter;
         let [r, y1, y2] = point.section[0].array();
-        let start = State { r, y1: y1 * 1.000_1, x2: 0.0, y2 };
+        let start = State::of([r, y1 * 1.000_1, 0.0, y2]);
         let orbit = settle(&p, 0.0, start, &Protocol::default());
         let speeds = [&orbit.outputs, &point.measured].map(|it| it[Output::ProgressionSpeed]);
         assert!((speeds[0] - speeds[1]).abs() < 1e-9, "{}: {speeds:?}", point.parameter);

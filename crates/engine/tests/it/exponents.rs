@@ -161,7 +161,7 @@ impl System<2> for Duffing {
     }
 
     fn metric(&self) -> Metric<2> {
-        Metric { scales: [1.0, 1.0] }
+        Metric::new([1.0, 1.0])
     }
 
     fn observer(&self, _points: usize) {}
@@ -301,7 +301,7 @@ fn parting(case: &Case, start: [f64; 3], cycles: usize) -> (f64, f64) {
     let distance = |difference: &[f64; 3]| {
         (0..3).map(|i| (difference[i] * scales[i]).powi(2)).sum::<f64>().sqrt()
     };
-    let state = |[r, y1, y2]: [f64; 3]| State { r, y1, x2: 0.0, y2 };
+    let state = |[r, y1, y2]: [f64; 3]| State::of([r, y1, 0.0, y2]);
     let apart = 1e-8;
     let mut neighbour = start;
     neighbour[1] += apart;
@@ -347,7 +347,7 @@ fn smooth_means_tell_a_rotation_from_chaos() {
             [x, 0.0, 0.0]
         })
         .collect();
-    let metric = Metric { scales: [1.0; 3] };
+    let metric = Metric::new([1.0; 3]);
     assert!(irregularity(&rotation, &metric, 1.0) < 1e-9);
     assert!(irregularity(&logistic, &metric, 1.0) > 1e-3);
 }

@@ -216,7 +216,7 @@ impl System<2> for Impact<f64> {
 
     /// A displacement x counts as the velocity w x.
     fn metric(&self) -> Metric<2> {
-        Metric { scales: [self.omega, 1.0] }
+        Metric::new([self.omega, 1.0])
     }
 
     fn observer(&self, _points: usize) {}
