@@ -125,7 +125,12 @@ impl<'v, 'a> Motion<'v, 'a> {
     /// The values of the quantity called `name` at its points, in the unit of the figure.
     pub fn shown(&self, name: &str) -> Result<Vec<f64>, FigureError> {
         let factor = self.view.quantity(name).factor;
-        Ok(self.samples(name)?.into_iter().map(|value| value * factor).collect())
+        let mut samples = self.samples(name)?;
+        let kind = self.view.model().signal(name).map(|it| it.kind);
+        if kind == Some(SignalKind::Repeating) {
+            break_turns(&mut samples);
+        }
+        Ok(samples.into_iter().map(|value| value * factor).collect())
     }
 
     /// The same in SI.
@@ -207,7 +212,8 @@ impl<'v, 'a> Motion<'v, 'a> {
         state: impl Fn(&[f64]) -> State,
     ) -> Result<Vec<f64>, FigureError> {
         let signal = self.view.model().signal(name);
-        let signal = signal.filter(|it| it.kind == SignalKind::Coordinate);
+        let on_section = [SignalKind::Coordinate, SignalKind::Repeating];
+        let signal = signal.filter(|it| on_section.contains(&it.kind));
         let Some(signal) = signal else { return Ok(Vec::new()) };
         let rows = numbers.iter().map(|it| self.row(it.name));
         let rows = rows.collect::<Result<Vec<_>, FigureError>>()?;
@@ -347,6 +353,18 @@ impl Samples {
         let end = arc.times.len() - 1;
         let ends_at_next = (arc_column[end] - samples[place + 1]).abs() <= most;
         Some(column) == self.parameters.model().drift || (begins_at_sample && ends_at_next)
+    }
+}
+
+/// Leaves a sample out where what repeats begins anew, so that no line leads across the picture there.
+fn break_turns(samples: &mut [f64]) {
+    let mut before = f64::NAN;
+    for sample in samples {
+        let jumps = (*sample - before).abs() > 0.5;
+        before = *sample;
+        if jumps {
+            *sample = f64::NAN;
+        }
     }
 }
 

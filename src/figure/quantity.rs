@@ -60,7 +60,9 @@ impl Quantity {
         let is_result = dataset.coordinate(name).is_none();
         let unit = stored.map_or("", |it| it.unit.as_str());
         let least = if is_result { rounding(unit) } else { 0.0 };
-        let is_ratio = is_result && unit == "1";
+        // Differences of coordinates matter, whatever their unit.
+        let is_coordinate = dataset.model().points().any(|it| it.name == name);
+        let is_ratio = is_result && unit == "1" && !is_coordinate;
         let described = catalogue::named(name, dataset.model());
         match described.and_then(|entry| entry.shown) {
             Some(Shown { label, symbol, unit, factor }) => Quantity {

@@ -125,13 +125,28 @@ fn page<'a>(view: &View<'a>, sections: &[Section]) -> PageRequest<'a> {
 }
 
 fn stroboscopic(view: &View<'_>) -> Result<Option<Section>, FigureError> {
-    let [x, y] = match section(view.model())[..] {
+    let [x, y] = match coordinates(view)?[..] {
         [x, y, ..] if view.dataset.variable(x.name).is_some() => [x, y],
         _ => return Ok(None),
     };
     let quantities = [x, y].map(|entry| view.quantity(entry.name));
     let name = "stroboscopic section point";
     Ok(Some(section_of(name, quantities, shown(view, x)?, shown(view, y)?)))
+}
+
+/// The section coordinates, those first that are asked for.
+fn coordinates(view: &View<'_>) -> Result<Vec<Entry>, FigureError> {
+    let known = section(view.model());
+    let mut asked = Vec::new();
+    for name in &view.drawing.of {
+        let Some(found) = known.iter().find(|it| it.name == name) else {
+            let names: Vec<&str> = known.iter().map(|it| it.name).collect();
+            let names = names.join(", ");
+            return Err(view.unfit(format!("a section cannot show `{name}`; it can show {names}")));
+        };
+        asked.push(*found);
+    }
+    Ok(asked.into_iter().chain(known).collect())
 }
 
 /// The first number that is told of an impact, and the ordinate of a phase portrait there.

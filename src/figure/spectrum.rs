@@ -126,6 +126,12 @@ impl Spectrum {
     /// The spectrum of a quantity over as many whole cycles as its history has.
     fn of(panel: &CasePanel<'_>, output: &str) -> Result<Spectrum, FigureError> {
         let view = &panel.view;
+        let kind = view.model().signal(output).map(|it| it.kind);
+        if kind == Some(SignalKind::Repeating) {
+            return Err(
+                view.unfit(format!("`{output}` begins anew again and again: it has no spectrum"))
+            );
+        }
         let motion = Motion::sampled(view, &panel.free, panel.case);
         let times = motion.cycles()?;
         let values = motion.shown(output)?;
@@ -139,7 +145,6 @@ impl Spectrum {
         }
         let omega = motion.frequency()?;
         let drive = omega * view.quantity(SPECTRUM_FREQUENCY.name).factor;
-        let kind = view.model().signal(output).map(|it| it.kind);
         let goes_on = kind == Some(SignalKind::Drifting);
         // A case that failed has no motion.
         let lines = match values.iter().all(|value| value.is_finite()) {

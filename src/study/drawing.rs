@@ -16,6 +16,8 @@ enum Shows {
     Verdicts,
     /// What there is for each point of the sections.
     Points,
+    /// The coordinates of the stroboscopic section.
+    Section,
     /// Signals over time, and those that the model shows together.
     Histories,
     /// Signals, each by itself.
@@ -31,6 +33,7 @@ impl Shows {
         match self {
             Shows::Verdicts => VERDICTS.to_vec(),
             Shows::Points => model.points().map(|it| it.name).collect(),
+            Shows::Section => model.section.iter().map(|it| it.name).collect(),
             Shows::Histories => {
                 let groups = model.motion.groups.iter().map(|it| it.quantity.name);
                 signals.map(Signal::name).chain(groups).collect()
@@ -127,7 +130,7 @@ kinds! {
     /// Shares of the starts that lead to each attractor, along a parameter, and the room of each basin.
     Shares "shares" AXES;
     /// The stroboscopic section points of one case, and its impacts.
-    Section "section" AXES;
+    Section "section" Keys { others: &[Shows::Section], most: 2, ..AXES };
     /// Progression speed against an energy per cycle.
     TradeOff "trade-off" Keys { outputs: true, most: 1, between: true, coloured: true, marks: &["fronts", "optima"], ..AXES };
     /// The speed of the fastest motion of each cell over two axes, and beside it what it costs, with the fronts on both.

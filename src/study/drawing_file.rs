@@ -205,7 +205,8 @@ fn read_of(table: &Table<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output])
         let most = if most == 1 { "one output".to_owned() } else { format!("{most} outputs") };
         of.fault(format!("expected {most} for this kind of figure, found {}", list.len()));
     }
-    if kind == DrawingKind::PhasePortrait && list.len() == 1 {
+    let is_plane = matches!(kind, DrawingKind::PhasePortrait | DrawingKind::Section);
+    if is_plane && list.len() == 1 {
         of.fault("expected the coordinates of both axes, found one");
     }
     let names: Vec<(&str, &str)> =
