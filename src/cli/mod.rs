@@ -30,6 +30,7 @@ mod progress;
 mod readable;
 mod report;
 mod simulate;
+mod simulation_text;
 mod slurm;
 mod smooth;
 mod status;

@@ -1,6 +1,5 @@
 //! `capsulemap simulate`: one case in full.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -8,20 +7,22 @@ use clap::Args;
 use super::arguments::{named, read_quantity};
 use super::failure::Failure;
 use super::phases::Phases;
+use super::simulation_text::summary;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
 use crate::capsule::description::CAPSULE;
+use crate::capsule::over_folds::CAPSULE_OVER_FOLDS;
 use crate::capsule::{
     self, CapsuleParameters as _, DriveKind, Reaction, Release, Resistance, Switching,
 };
 use crate::description::{Description, Parameter, Parameters, Remark, State};
-use crate::explore::{case_json, remarks, told};
-use crate::motion::{Case, Orbit, Simulation, SimulationSize};
+use crate::explore::case_json;
+use crate::motion::{Case, SimulationSize};
 use crate::of::{all_models, default_model, model_called, model_of, settle_case};
 use crate::orbit::Protocol;
 use crate::quantity::printable::printable;
 use crate::run::Machine;
-use crate::study::document::unknown;
+use crate::study::document::{unknown, unknown_of};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -44,9 +45,8 @@ pub struct Simulate {
     /// Its number, counted from 0 with the last axis fastest, as in the reports of failures.
     #[arg(long, requires = "study")]
     case: Option<usize>,
-    /// Another model than the capsule, of those that this program knows; its parameters are given by --set.
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["study", "omega", "p_d", "k2", "delta",
-        "friction_switching", "resistance", "drive", "drive_reaction", "release"])]
+    /// Another model than the capsule, of those that this program knows, as capsule-over-folds; its parameters are given by --set.
+    #[arg(long, value_name = "NAME", conflicts_with = "study")]
     model: Option<String>,
     /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
@@ -64,7 +64,7 @@ pub struct Simulate {
     /// duty, incline or k3 (studies/README.md has all).
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Start of the motion (r, y1, x2, y2); at rest by default.
+    /// Start of the motion (r, y1, x2, y2, over folds place, too); at rest by default.
     #[arg(long, value_name = "NAME=VALUE,...", allow_hyphen_values = true)]
     start: Option<String>,
     #[command(flatten)]
@@ -105,6 +105,11 @@ pub struct Simulate {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
+}
+
+/// Whether a model is a capsule, on any ground, to which the options of its parameters and choices belong.
+fn is_capsule(model: &'static Description) -> bool {
+    [&CAPSULE, &CAPSULE_OVER_FOLDS].contains(&model)
 }
 
 /// A case as it was asked for, and how to compute it.
@@ -181,12 +186,16 @@ impl Simulate {
         let mut faults = Vec::new();
         let model = self.chosen_model(&mut faults);
         let mut parameters = Parameters::of(model);
-        if *model == CAPSULE {
+        if is_capsule(model) {
             parameters.switch_by(self.friction_switching);
             parameters.resist_by(self.resistance);
             parameters.drive_by(self.drive);
             parameters.react_on(self.drive_reaction);
             parameters.release_by(self.release);
+        } else {
+            faults.extend(self.options_of_capsules().map(|option| {
+                format!("{option}: is an option of capsules; parameters of the model {} are given by --set", model.name)
+            }));
         }
         let given = self.given(model, &mut faults);
         set_given(&mut parameters, &given, &mut faults);
@@ -224,7 +233,7 @@ impl Simulate {
         ];
         let mut given = Vec::new();
         for (option, parameter, text) in own {
-            if let Some(text) = text {
+            if let Some(text) = text.as_ref().filter(|_| is_capsule(model)) {
                 let (option, parameter) = (option.to_owned(), parameter.into());
                 given.push(Given { option, parameter, text });
             }
@@ -236,11 +245,28 @@ impl Simulate {
                 }
                 None => {
                     let symbols = model.parameters().map(|parameter| parameter.symbol());
-                    faults.push(format!("--set: {}", unknown("parameter", name, symbols)));
+                    let fault = unknown_of(model, "parameter", name, symbols);
+                    faults.push(format!("--set: {fault}"));
                 }
             }
         }
         given
+    }
+
+    /// The options that only a capsule has, of those that are given.
+    fn options_of_capsules(&self) -> impl Iterator<Item = &'static str> {
+        let given = [
+            ("--omega", self.omega.is_some()),
+            ("--p-d", self.p_d.is_some()),
+            ("--k2", self.k2.is_some()),
+            ("--delta", self.delta.is_some()),
+            ("--friction-switching", self.friction_switching != Switching::Filippov),
+            ("--resistance", self.resistance != Resistance::CoulombStribeck),
+            ("--drive", self.drive != DriveKind::Harmonic),
+            ("--drive-reaction", self.drive_reaction != Reaction::None),
+            ("--release", self.release != Release::Geometry),
+        ];
+        given.into_iter().filter(|(_, is_given)| *is_given).map(|(option, _)| option)
     }
 
     /// The model that is asked for; the usual one where it is not known.
@@ -308,92 +334,5 @@ fn set_given(parameters: &mut Parameters, given: &[Given<'_>], faults: &mut Vec<
         }
         let value = read_quantity(option, text, parameter.dimension(), faults);
         parameters[*parameter] = value.unwrap_or(parameters[*parameter]);
-    }
-}
-
-/// A coordinate of the state as the table of a motion shows it.
-struct ShownCoordinate {
-    head: String,
-    /// What its values in SI are multiplied by.
-    factor: f64,
-}
-
-impl ShownCoordinate {
-    /// The one at a place among those of a model, in the unit that figures show.
-    fn of(model: &'static Description, place: usize) -> ShownCoordinate {
-        let name = model.coordinates[place].name;
-        let quantity = model.coordinate_along(place);
-        let si = (quantity.dimension.unit(), 1.0);
-        let (unit, factor) = quantity.shown.map_or(si, |it| (it.unit, it.factor));
-        let head = if unit.is_empty() || unit == "1" {
-            name.to_owned()
-        } else {
-            format!("{name} [{unit}]")
-        };
-        ShownCoordinate { head, factor }
-    }
-}
-
-/// What a person wants to see first.
-fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> String {
-    let given: Vec<String> = parameters
-        .stated()
-        .map(|(parameter, value)| format!("{} = {value}", parameter.symbol()))
-        .collect();
-    let mut text = format!("{} (SI)\n", given.join(", "));
-    if let Some(member) = (parameters.model().rules.member)(parameters) {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "member of the family: {member}");
-    }
-    text.push('\n');
-    write_section(&mut text, parameters.model(), simulation);
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "{} events; --json lists them", simulation.events.len());
-    if let Some(failure) = &simulation.failure {
-        let _ = writeln!(text, "failed: {failure}");
-    }
-    let _ = writeln!(text, "\noutcome: {}, after {} cycles", verdict(orbit), orbit.cycles);
-    if let Some(failure) = &orbit.failure {
-        let _ = writeln!(text, "  {failure}");
-        return text;
-    }
-    for (output, value) in told(parameters, orbit) {
-        let unit = if output.unit() == "1" { "" } else { output.unit() };
-        let _ = writeln!(text, "  {:<26} {:>16.9e} {unit}", output.name(), value);
-    }
-    for remark in remarks(parameters, orbit) {
-        let _ = writeln!(text, "  {remark}");
-    }
-    text
-}
-
-/// The section points of a motion as a table.
-fn write_section(text: &mut String, model: &'static Description, simulation: &Simulation) {
-    let coordinates: Vec<ShownCoordinate> =
-        (0..model.coordinates.len()).map(|place| ShownCoordinate::of(model, place)).collect();
-    let _ = write!(text, "{:>5} {:>12}", "cycle", "t [s]");
-    for it in &coordinates {
-        let _ = write!(text, " {:>14}", it.head);
-    }
-    for count in model.motion.counts {
-        let _ = write!(text, " {count:>8}");
-    }
-    text.push('\n');
-    for sample in &simulation.section {
-        let _ = write!(text, "{:>5} {:>12.6}", sample.cycle, sample.time);
-        for (it, value) in coordinates.iter().zip(sample.state.values()) {
-            let _ = write!(text, " {:>14.9}", value * it.factor);
-        }
-        for count in &sample.counts {
-            let _ = write!(text, " {count:>8}");
-        }
-        text.push('\n');
-    }
-}
-
-fn verdict(orbit: &Orbit) -> String {
-    match orbit.period {
-        0 => orbit.outcome.name().to_owned(),
-        period => format!("{} ({period})", orbit.outcome.name()),
     }
 }

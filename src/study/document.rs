@@ -6,7 +6,7 @@ use std::fmt;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-pub use super::unknown_name::{nearest, unknown};
+pub use super::unknown_name::{nearest, unknown, unknown_of};
 use crate::description::Description;
 use crate::quantity::printable::one_line;
 use crate::quantity::units::{expectation, parse_in};
@@ -199,7 +199,8 @@ impl<'r, 'a> Table<'r, 'a> {
         for (key, _) in self.table.iter() {
             let name = key.get_ref();
             if !asked.iter().any(|known| known == name) {
-                let message = unknown("key", name, asked.iter().map(String::as_str));
+                let known = asked.iter().map(String::as_str);
+                let message = unknown_of(self.model(), "key", name, known);
                 self.reader.fault(Some(key.span().start), self.path_of(name), message);
             }
         }
@@ -348,7 +349,8 @@ impl<'r, 'a> Entry<'r, 'a> {
         let text = self.text()?;
         let found = choices.iter().find(|(name, _)| *name == text).map(|&(_, value)| value);
         if found.is_none() {
-            self.fault(unknown(what, text, choices.iter().map(|&(name, _)| name)));
+            let known = choices.iter().map(|&(name, _)| name);
+            self.fault(unknown_of(self.reader.model, what, text, known));
         }
         found
     }

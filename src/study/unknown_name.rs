@@ -2,6 +2,9 @@
 
 use strsim::damerau_levenshtein;
 
+use crate::description::Description;
+use crate::of::all_models;
+
 /// A message about a name that is not known, with the nearest of those that are.
 pub fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>) -> String {
     let known: Vec<&str> = known.collect();
@@ -14,6 +17,35 @@ pub fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>)
         None => String::new(),
     };
     format!("unknown {what} \"{name}\"{hint} (allowed: {})", listed(name, known))
+}
+
+/// The same about a key of a model, with the model that has it on other ground, if there is one.
+pub fn unknown_of<'n>(
+    model: &'static Description,
+    what: &str,
+    name: &str,
+    known: impl Iterator<Item = &'n str>,
+) -> String {
+    let others = all_models().into_iter().filter(|it| it.extends == Some(model));
+    let having = others.into_iter().find(|it| has(it, name) && !has(model, name));
+    match having {
+        Some(other) => {
+            format!(
+                "unknown {what} \"{name}\" of the model {}: it is one of the model {}",
+                model.name, other.name
+            )
+        }
+        None => unknown(what, name, known),
+    }
+}
+
+/// Whether a model has a quantity that studies name so.
+fn has(model: &'static Description, name: &str) -> bool {
+    let starts = model.coordinates.iter().map(|it| it.start.name);
+    model.parameter(name).is_some()
+        || model.output(name).is_some()
+        || model.signal(name).is_some()
+        || model.points().map(|it| it.name).chain(starts).any(|it| it == name)
 }
 
 /// Names in a list; of many, those that are nearest to `name`, and how many others there are.
