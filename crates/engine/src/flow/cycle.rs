@@ -29,17 +29,20 @@ pub enum Reason {
     OutOfSteps,
     /// Nothing holds a mean force, and the motion accelerates for ever.
     Runaway,
+    /// No motion starts in such a state, as behind a rigid stop; told by models.
+    NoStart,
 }
 
 impl Reason {
     /// Every reason with its name in files.
-    pub const NAMES: [(Reason, &str); 6] = [
+    pub const NAMES: [(Reason, &str); 7] = [
         (Reason::NoProgress, "no-progress"),
         (Reason::NotFinite, "not-finite"),
         (Reason::TooManySteps, "too-many-steps"),
         (Reason::NoReturn, "no-return"),
         (Reason::OutOfSteps, "out-of-steps"),
         (Reason::Runaway, "runaway"),
+        (Reason::NoStart, "no-start"),
     ];
 }
 
@@ -51,6 +54,7 @@ impl fmt::Display for Reason {
             Reason::NoReturn => Breakdown::NoReturn.fmt(f),
             Reason::Runaway => Breakdown::RunsAway.fmt(f),
             Reason::TooManySteps => write!(f, "a drive cycle takes over {STEPS_PER_CYCLE} steps"),
+            Reason::NoStart => f.write_str("no motion starts there"),
             Reason::OutOfSteps => f.write_str("the case takes more steps than max_steps allows"),
         }
     }

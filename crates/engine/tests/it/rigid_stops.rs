@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
+use capsulemap_engine::flow::Reason;
 use capsulemap_engine::orbit::{Outcome, Protocol};
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, DriveKind, EventKind, Output, Parameter, Parameters, Release,
-    Resistance, Simulation, State, settle, simulate,
+    CapsuleParameters as _, CapsuleState as _, DriveKind, EventKind, Output, Parameter, Parameters,
+    Release, Resistance, Simulation, State, settle, simulate,
 };
 
 use super::impact_orbits::OneImpact;
@@ -57,7 +58,7 @@ fn one_impact_orbits_of_a_held_capsule_are_in_closed_form() {
                 ],
             );
             let [r, y1] = orbit.section();
-            let run = simulate(&p, 0.0, State { r, y1, x2: 0.0, y2: 0.0 }, orbit.n, 1e-13);
+            let run = simulate(&p, 0.0, State::of([r, y1, 0.0, 0.0]), orbit.n, 1e-13);
             assert!(run.failure.is_none(), "{:?}", run.failure);
             let last = run.section.last().expect("a section");
             let miss = (last.r - r).abs().max((last.y1 - y1).abs()) / orbit.speed.max(1e-3);
@@ -138,7 +139,7 @@ fn an_impact_keeps_the_momentum_and_sets_a_resting_capsule_in_motion() {
         let period = 1e-3;
         p[Parameter::Period] = period;
         let y1 = 0.7;
-        let run = simulate(&p, 0.0, State { r: 1.0 - 1e-14, y1, x2: 0.0, y2 }, 1, 1e-13);
+        let run = simulate(&p, 0.0, State::of([1.0 - 1e-14, y1, 0.0, y2]), 1, 1e-13);
         let (relative, total) = (y1 - y2, 1.0 + m2);
         let mass = y1 - (1.0 + e) * m2 / total * relative;
         let capsule = y2 + (1.0 + e) / total * relative;
@@ -244,4 +245,19 @@ fn a_start_at_the_stop_is_decided_by_the_motion_that_follows() {
     // Behind the stop nothing starts.
     let behind = State { r: 6e-3, ..State::default() };
     assert!(simulate(&p, 0.0, behind, 1, 1e-13).failure.is_some());
+}
+
+/// Nothing is behind a rigid stop: a case that starts there fails at once, and says why.
+#[test]
+fn no_motion_starts_behind_a_rigid_stop() {
+    let p = held(0.5, &[(Parameter::Delta, 1e-3), (Parameter::K1, 1.0)]);
+    let behind = State::of([1.5e-3, 0.0, 0.0, 0.0]);
+    let orbit = settle(&p, 0.0, behind, &Protocol::default());
+    let failure = orbit.failure.expect("nothing is there");
+    assert_eq!((orbit.outcome, failure.reason), (Outcome::Failed, Reason::NoStart));
+    assert_eq!(failure.state.capsule(), behind);
+    let run = simulate(&p, 0.0, behind, 3, 1e-12);
+    assert_eq!(run.failure.map(|it| it.reason), Some(Reason::NoStart));
+    let before = settle(&p, 0.0, State::of([1e-3, 0.0, 0.0, 0.0]), &Protocol::default());
+    assert!(before.failure.is_none(), "{before:?}");
 }

@@ -3,7 +3,7 @@
 use capsulemap_engine::flow::{Event as _, Observer as _, Switched as _, System};
 use capsulemap_engine::orbit::{self, Trajectory};
 
-use super::{Face, engine_case};
+use super::{Face, engine_case, explained};
 use crate::motion::{Case, Event, Sample, Simulation, SimulationSize};
 
 /// A motion at the end of a cycle.
@@ -80,7 +80,7 @@ pub fn followed<M: Face<D>, const D: usize>(
             }
         });
         if let Err(why) = cycle {
-            followed.failure = Some(why);
+            followed.failure = Some(explained::<M, D>(why, case));
             break;
         }
         if followed.events.len() > most.events {

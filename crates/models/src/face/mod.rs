@@ -5,7 +5,7 @@ mod followed;
 mod stretch;
 
 use capsulemap_engine::branch::{self, NotFollowed};
-use capsulemap_engine::flow::{Step, System};
+use capsulemap_engine::flow::{Reason, Step, System};
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{self, Certificate, OrbitOf, Outcome, Protocol};
 
@@ -65,6 +65,11 @@ pub trait Face<const D: usize>: System<D> + 'static {
         Vec::new()
     }
 
+    /// Whether no motion starts as a case does, which then fails at once.
+    fn has_no_start(_case: &Case) -> bool {
+        false
+    }
+
     /// What a case has settled to, withdrawn where the model can tell that it has not.
     fn judged(orbit: OrbitOf<Self, D>, _case: &Case, _protocol: &Protocol) -> OrbitOf<Self, D> {
         orbit
@@ -111,6 +116,8 @@ pub fn orbit_of<M: Face<D>, const D: usize>(
 ) -> Orbit {
     let system = M::of(&case.parameters, case.section_phase);
     let orbit = M::judged(orbit, case, protocol);
+    let orbit =
+        OrbitOf::<M, D> { failure: orbit.failure.map(|it| explained::<M, D>(it, case)), ..orbit };
     let (orbit, history) = match history::<M, D>(&orbit, case, protocol) {
         Ok(history) => (orbit, history),
         Err(failure) => (failed(&system, orbit, failure), Vec::new()),
@@ -130,6 +137,19 @@ pub fn orbit_of<M: Face<D>, const D: usize>(
         history,
         end: M::told(&orbit.end),
         failure: orbit.failure.map(|it| it.map(|state| M::told(&state))),
+    }
+}
+
+/// Why a case has failed, where its start tells that.
+fn explained<M: Face<D>, const D: usize>(
+    failure: orbit::Failure<M::State<f64>>,
+    case: &Case,
+) -> orbit::Failure<M::State<f64>> {
+    match failure.reason {
+        Reason::NotFinite if M::has_no_start(case) => {
+            orbit::Failure { reason: Reason::NoStart, time: 0.0, state: M::state(&case.start) }
+        }
+        _ => failure,
     }
 }
 
