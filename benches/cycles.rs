@@ -10,6 +10,7 @@ mod lanes;
 use std::hint::black_box;
 use std::time::Instant;
 
+use capsulemap::capsule::over_folds::CAPSULE_OVER_FOLDS;
 use capsulemap::capsule::{CapsuleParameters as _, DriveKind, Parameter, Parameters};
 use capsulemap::lane::Instructions;
 use cases::{TOLERANCE, case_sets, integrate};
@@ -93,6 +94,14 @@ fn member_sets() -> Vec<(&'static str, Vec<Parameters>)> {
             }),
         ),
         ("grid, rigid stop", with(&|p| p[Parameter::Restitution] = 0.5)),
+        (
+            "grid, folds",
+            with(&|p| {
+                *p = p.of_extension(&CAPSULE_OVER_FOLDS);
+                p[Parameter::FoldFriction] = 0.3;
+                p[Parameter::FoldForce] = 0.3;
+            }),
+        ),
         (
             "grid, prescribed motion",
             with(&|p| {

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use capsulemap::capsule::{
-    AsPrinted, CapsuleParameters, Filippov, Form, General, Parameters, Reading, State,
+    AsPrinted, CapsuleParameters, Filippov, Form, General, OverFolds, Parameters, Reading, State,
 };
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
@@ -31,9 +31,10 @@ pub fn integrate_from(
 ) -> Vec<End> {
     let form = cases.first().map_or(Form::Filippov, |(case, _)| case.form());
     let ends = match form {
-        Form::Filippov => integrate_as::<Filippov>(instructions, cases, cycles, tolerance),
-        Form::AsPrinted => integrate_as::<AsPrinted>(instructions, cases, cycles, tolerance),
-        Form::General => integrate_as::<General>(instructions, cases, cycles, tolerance),
+        Form::Filippov => integrate_as::<Filippov, 3>(instructions, cases, cycles, tolerance),
+        Form::AsPrinted => integrate_as::<AsPrinted, 3>(instructions, cases, cycles, tolerance),
+        Form::General => integrate_as::<General, 3>(instructions, cases, cycles, tolerance),
+        Form::OverFolds => integrate_as::<OverFolds, 4>(instructions, cases, cycles, tolerance),
     };
     let is_sound = |end: &End| end.state.y1.is_finite() && end.events <= end.steps;
     assert!(ends.iter().all(is_sound), "motions are finite, and every event ends a step");
@@ -41,23 +42,23 @@ pub fn integrate_from(
 }
 
 /// The same of cases of one form.
-fn integrate_as<R: Reading>(
+fn integrate_as<R: Reading<D>, const D: usize>(
     instructions: Instructions,
     cases: &[(Parameters, State<f64>)],
     cycles: u64,
     tolerance: f64,
 ) -> Vec<End> {
-    instructions.run(Integrate::<R> { cases, cycles, tolerance, form: PhantomData })
+    instructions.run(Integrate::<R, D> { cases, cycles, tolerance, form: PhantomData })
 }
 
-struct Integrate<'a, R> {
+struct Integrate<'a, R, const D: usize> {
     cases: &'a [(Parameters, State<f64>)],
     cycles: u64,
     tolerance: f64,
     form: PhantomData<R>,
 }
 
-impl<R: Reading> Work for Integrate<'_, R> {
+impl<R: Reading<D>, const D: usize> Work for Integrate<'_, R, D> {
     type Output = Vec<End>;
 
     #[inline(always)]

@@ -97,7 +97,7 @@ fn draws_are_counted_that_keep_conditions_and_budget() {
         let value = |it: &Parameter| (*it, number(&point["parameters"], it.symbol()));
         let values: Vec<(Parameter, f64)> = of_the_paper().map(value).collect();
         let parameters = Parameters::with(&values);
-        let rest = State { r: 0.0, y1: 0.0, x2: 0.0, y2: 0.0 };
+        let rest = State::of([0.0, 0.0, 0.0, 0.0]);
         let begun = settle(&parameters, 0.0, rest, &Protocol::default()).end;
         let mut counts = [0_u64; 3];
         for factors in &factors {

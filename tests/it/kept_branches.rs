@@ -56,7 +56,7 @@ impl Kept {
         let mut parameters = self.study.branches[0].parameters.clone();
         parameters[Parameter::Omega] = omega;
         let protocol = Protocol { max_cycles: 20_000, ..Protocol::default() };
-        let orbit = settle(&parameters, 0.0, State { r, y1, x2: 0.0, y2 }, &protocol);
+        let orbit = settle(&parameters, 0.0, State::of([r, y1, 0.0, y2]), &protocol);
         if orbit.outcome == Outcome::Periodic { orbit.period } else { 0 }
     }
 }
@@ -129,7 +129,7 @@ fn the_hysteresis_has_an_unstable_branch_between_its_folds() {
             let mut parameters = kept.study.branches[0].parameters.clone();
             parameters[Parameter::Omega] = omega[i];
             let [r, y1, y2] = section;
-            let start = State { r, y1: y1 + push, x2: 0.0, y2 };
+            let start = State::of([r, y1 + push, 0.0, y2]);
             let orbit = settle(&parameters, 0.0, start, &Protocol::default());
             orbit.outputs[capsulemap::capsule::Output::ProgressionSpeed].abs() > 0.05
         });

@@ -7,6 +7,7 @@ mod blocks;
 mod boundary_scaling;
 mod branch_figure;
 mod campaign;
+mod capsule_over_folds;
 mod catalogue;
 mod chaotic_basins;
 mod circles;

@@ -62,7 +62,7 @@ fn judged(point: &Value, parameter: Parameter, margin: &Value) -> (Option<String
     let until = number(margin, "until");
     let period = point["period"].as_u64().expect("a period");
     let start = |key: &str| number(&point["start"], key);
-    let last = State { r: start("start_r"), y1: start("start_y1"), x2: 0.0, y2: start("start_y2") };
+    let last = State::of([start("start_r"), start("start_y1"), 0.0, start("start_y2")]);
     let mut settling = Settling { parameters: parameters(point), parameter, last };
     let from = settling.parameters[parameter];
     let beside = BESIDE * from * (until - from).signum();

@@ -235,7 +235,7 @@ fn extreme_parameters_have_an_outcome_in_time() {
             continue;
         }
         let mut start = || random.uniform(-1.0, 1.0) * libm::exp10(random.uniform(-9.0, 9.0));
-        let start = State { r: start(), y1: start(), x2: start(), y2: start() };
+        let start = State::of([start(), start(), start(), start()]);
         let case = Case { parameters, start: start.into(), start_phase: 0.0, section_phase: 0.0 };
         let begun = Instant::now();
         let ran = catch_unwind(AssertUnwindSafe(|| settle_case(&case, &protocol)));

@@ -77,7 +77,7 @@ fn swept(text: &str) -> (tempfile::TempDir, Archive) {
 #[test]
 fn a_registered_model_is_known_by_its_name_alone() {
     let study = study(LINE);
-    assert!(*study.base.model() == IMPACT_OSCILLATOR && all_models().len() == 2);
+    assert!(*study.base.model() == IMPACT_OSCILLATOR && all_models().len() == 3);
     assert!(register(IMPACT).is_err());
     let said =
         Study::parse("study.toml", &LINE.replace("impact-", "impakt-")).expect_err("unknown");

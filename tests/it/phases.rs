@@ -86,7 +86,7 @@ fn the_first_section_is_where_direct_integration_is_at_its_phase() {
         let found = simulate_case(&case, 0, 1e-12);
         let [first] = &found.section[..] else { panic!("one section: {found:?}") };
         assert!((first.t - left).abs() < 1e-12 * left.max(1.0) && first.n == 0, "{first:?}");
-        let State { r, y1, x2, y2 } = motion.state;
+        let State { r, y1, x2, y2, .. } = motion.state;
         let apart = omega * (first.r - r).abs().max((first.x2 - x2).abs());
         let apart = apart.max((first.y1 - y1).abs()).max((first.y2 - y2).abs());
         assert!(apart < 1e-8, "{apart:e}: {case:?}");
@@ -142,7 +142,7 @@ fn a_later_start_on_the_same_motion_changes_nothing() {
         let phase = case.start_phase + 0.4;
         let first = simulate_case(&Case { section_phase: phase, ..case.clone() }, 0, 1e-12);
         let Sample { r, y1, y2, .. } = first.section[0];
-        let start = State { r, y1, x2: 0.0, y2 };
+        let start = State::of([r, y1, 0.0, y2]);
         let later = Case { start: start.into(), start_phase: phase, ..case.clone() };
         let [a, b] = [&case, &later].map(|case| settle_case(case, &Protocol::default()));
         if a.outcome == Outcome::Periodic && a.certificate.multipliers[0].abs() < 0.99 {

@@ -48,6 +48,7 @@ impl Random {
             Allowed::NonNegative => [0.0, size][usize::from(self.below(8) > 0)],
             Allowed::Share => self.uniform(0.001, 0.999),
             Allowed::UpToOne => self.uniform(0.0, 1.0),
+            Allowed::UpToTen => self.uniform(0.0, 10.0),
             Allowed::Slope => self.uniform(-1.5, 1.5),
             Allowed::Finite => size * self.one(&[-1.0, 1.0]),
         }

@@ -33,8 +33,7 @@ fn motion(point: &Value) -> (Parameters, State<f64>) {
     let value = |it: &Parameter| (*it, number(&point["parameters"], it.symbol()));
     let values: Vec<(Parameter, f64)> = of_the_paper().map(value).collect();
     let start = |key: &str| number(&point["start"], key);
-    let state =
-        State { r: start("start_r"), y1: start("start_y1"), x2: 0.0, y2: start("start_y2") };
+    let state = State::of([start("start_r"), start("start_y1"), 0.0, start("start_y2")]);
     (Parameters::with(&values), state)
 }
 

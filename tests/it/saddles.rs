@@ -65,7 +65,7 @@ fn pushed(study: &Study, found: &Attractors, edge: &Edge) -> [u32; 2] {
     let leads = |push: f64| {
         let point: [f64; 3] = std::array::from_fn(|i| saddle.points[0][i] + push * unstable[i]);
         let [r, y1, y2] = point;
-        let case = Case { start: State { r, y1, x2: 0.0, y2 }.into(), ..study.case(0) };
+        let case = Case { start: State::of([r, y1, 0.0, y2]).into(), ..study.case(0) };
         let motion = run::final_motion(&settle_case(&case, &study.protocol));
         let met = study.model().attractor(&Setting::of(&case), 0, &motion, &study.protocol);
         let here = met.expect("an attractor");
@@ -99,7 +99,7 @@ fn starts_on_the_two_sides_of_a_saddle_lead_to_the_two_attractors() {
 
 /// The speed of what a section point leads to [m/s].
 fn speed(study: &Study, [r, y1, y2]: [f64; 3]) -> f64 {
-    let case = Case { start: State { r, y1, x2: 0.0, y2 }.into(), ..study.case(0) };
+    let case = Case { start: State::of([r, y1, 0.0, y2]).into(), ..study.case(0) };
     let orbit = settle_case(&case, &study.protocol);
     assert_eq!(orbit.outcome, Outcome::Periodic);
     orbit.outputs[Output::ProgressionSpeed]

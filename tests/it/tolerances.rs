@@ -85,7 +85,7 @@ fn what_is_told_of_large_tolerances_is_that_of_the_draws_and_the_same_on_any_num
     for factors in (Tolerances { each, draws: 40, seed: 5 }).factors() {
         let mut changed = parameters.clone();
         factors.into_iter().for_each(|(parameter, factor)| changed[parameter] *= factor);
-        let there = settle(&changed, 0.0, State { r, y1, x2: 0.0, y2 }, &Protocol::default());
+        let there = settle(&changed, 0.0, State::of([r, y1, 0.0, y2]), &Protocol::default());
         speeds.push(there.outputs[Output::ProgressionSpeed]);
         kept += usize::from(there.outcome == Outcome::Periodic && there.period == orbit.period);
     }

@@ -74,7 +74,7 @@ impl Random {
 
     fn state(&mut self) -> State<f64> {
         let [r, y1, y2] = [(); 3].map(|()| self.number(Allowed::Finite));
-        State { r, y1, x2: 0.0, y2 }
+        State::of([r, y1, 0.0, y2])
     }
 
     fn protocol(&mut self) -> Protocol {

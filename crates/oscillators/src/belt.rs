@@ -34,6 +34,7 @@ const NAMES: [&str; 4] = ["c", "a", "s", "v"];
 /// What the mass on the belt says of itself; all in the units in which mass and stiffness are one.
 pub static MASS_ON_BELT: Description = Description {
     name: "belt",
+    extends: None,
     parameters: &[
         parameter(("c", "C"), "damping", (Allowed::NonNegative, 0.1)),
         parameter(("a", "A"), "friction of fast sliding", (Allowed::NonNegative, 0.5)),

@@ -37,6 +37,7 @@ const NAMES: [&str; 5] = ["c", "f", "w", "r", "wall"];
 /// What the impact oscillator says of itself; all in the units in which mass and stiffness are one.
 pub static IMPACT_OSCILLATOR: Description = Description {
     name: "impact-oscillator",
+    extends: None,
     parameters: &[
         parameter(("c", "C"), "damping", (Allowed::NonNegative, 0.1)),
         parameter(("f", "F"), "amplitude of the force", (Allowed::NonNegative, 1.0)),

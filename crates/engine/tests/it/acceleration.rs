@@ -77,7 +77,7 @@ fn fractal() -> Parameters {
 fn start(parameters: &Parameters, random: &mut Random) -> Case {
     let (r, y1) = (random.uniform(-1.2e-2, 5e-3), random.uniform(-0.8, 0.8));
     let y2 = if random.uniform(0.0, 1.0) < 0.5 { 0.0 } else { random.uniform(-0.3, 0.3) };
-    Case::at_section(parameters.clone(), State { r, y1, x2: 0.0, y2 }, 0.0)
+    Case::at_section(parameters.clone(), State::of([r, y1, 0.0, y2]), 0.0)
 }
 
 /// Draws a capsule of the box of weak and usual damping.
@@ -139,7 +139,7 @@ fn starts_of_several_attractors_settle_where_integration_leads() {
 /// 1e-12 and 1e-14 that share no code with the series lead it to period 1 with 4.5951 mJ.
 #[test]
 fn a_start_between_narrow_basins_settles_where_it_leads() {
-    let start = State { r: -10.481e-3, y1: 0.516456, x2: 0.0, y2: 0.0 };
+    let start = State::of([-10.481e-3, 0.516456, 0.0, 0.0]);
     let case = Case::at_section(fractal(), start, 0.0);
     let orbit = &settle_all(&[case], &Protocol::default(), Machine::single())[0];
     assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));

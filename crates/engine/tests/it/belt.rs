@@ -38,7 +38,7 @@ fn stick_slip_share(v_d: f64, switching: Switching, starts: usize) -> f64 {
     let mut sticking = 0;
     for _ in 0..starts {
         let (x, v) = (uniform(-2.0, 2.0), uniform(0.0, 2.0));
-        let start = State { r: -x, y1: -v_d, x2: x, y2: v - v_d };
+        let start = State::of([-x, -v_d, x, v - v_d]);
         let simulation = simulate(&p, 0.0, start, 1000, 1e-12);
         assert!(simulation.failure.is_none());
         let mut late = simulation.section.iter().filter(|sample| sample.t > 400.0);
@@ -70,7 +70,7 @@ fn steady_sliding_loses_stability_where_the_formula_says() {
         let p = belt(Switching::Filippov);
         let friction = 0.5 * (1.0 + (-v_d / 0.5_f64).exp());
         // At rest in the room the spring carries the friction, and r = -x2.
-        let start = State { r: -friction + 1e-6, y1: -v_d, x2: friction, y2: -v_d };
+        let start = State::of([-friction + 1e-6, -v_d, friction, -v_d]);
         let simulation = simulate(&p, 0.0, start, 4000, 1e-12);
         let departure = |n: usize| {
             let sample = &simulation.section[n];

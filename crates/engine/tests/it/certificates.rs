@@ -36,7 +36,7 @@ fn a_stricter_run_finds_the_same_periods() {
                     elsewhere += 1;
                     let Case { parameters, section_phase: phase, .. } = &cases[number];
                     let [r, y1, y2] = once.section[0].array();
-                    let kept = settle(parameters, *phase, State { r, y1, x2: 0.0, y2 }, &strict);
+                    let kept = settle(parameters, *phase, State::of([r, y1, 0.0, y2]), &strict);
                     let same = (kept.outcome, kept.period) == (Outcome::Periodic, once.period);
                     assert!(same, "case {number}: {} then {}", once.period, kept.period);
                 }
@@ -89,7 +89,7 @@ fn a_certified_orbit_closes_and_answers_pushes_as_its_multipliers_say() {
         );
         // Continued by the plain flow, the section repeats after the period and after no divisor of it.
         let [r, y1, y2] = orbit.section[0].array();
-        let start = State { r, y1, x2: 0.0, y2 };
+        let start = State::of([r, y1, 0.0, y2]);
         let run = simulate(&case.parameters, case.section_phase, start, orbit.period, 1e-13);
         let gap = |n: usize| {
             let (a, b) = (&run.section[0], &run.section[n]);

@@ -109,7 +109,7 @@ fn quiet_start(p: &Parameters) -> State<f64> {
     let (z, _) = impedance(p);
     let amplitude = p[Parameter::Pd] / z;
     let phi = (p[Parameter::C] * omega).atan2(p[Parameter::K1] - p[Parameter::M1] * omega * omega);
-    State { r: amplitude * phi.cos(), y1: omega * amplitude * phi.sin(), x2: 0.0, y2: 0.0 }
+    State::of([amplitude * phi.cos(), omega * amplitude * phi.sin(), 0.0, 0.0])
 }
 
 /// A block of mass 1 on a spring k = 1 to a wall that hardly moves, sliding on plain dry friction.

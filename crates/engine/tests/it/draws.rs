@@ -2,10 +2,12 @@
 
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{Machine, Outcome, Protocol};
+use capsulemap_models::capsule::over_folds::CAPSULE_OVER_FOLDS;
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, Case, DriveKind, Orbit, Parameter, Parameters, Reaction, Release,
-    Resistance, State, settle_all,
+    CapsuleParameters as _, CapsuleState as _, Case, DriveKind, Orbit, Parameter, Parameters,
+    Reaction, Release, Resistance, State, settle_all,
 };
+use capsulemap_models::description;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
@@ -68,12 +70,12 @@ pub fn wide(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
         let phase = random.uniform(0.0, 2.0 * std::f64::consts::PI);
         let rests = random.uniform(0.0, 1.0) < 0.25;
         let y2 = random.uniform(-1.0, 1.0);
-        let start = State {
-            r: random.uniform(-1e-2, 1e-2),
-            y1: random.uniform(-1.0, 1.0),
-            x2: 0.0,
-            y2: if rests { 0.0 } else { y2 },
-        };
+        let start = State::of([
+            random.uniform(-1e-2, 1e-2),
+            random.uniform(-1.0, 1.0),
+            0.0,
+            if rests { 0.0 } else { y2 },
+        ]);
         Case::at_section(parameters, start, phase)
     };
     (0..count).map(|_| draw()).collect()
@@ -94,8 +96,8 @@ pub fn members(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
 fn start_before_stop(case: &mut Case) {
     let gap = case.parameters[Parameter::Delta];
     if case.parameters.shape().is_rigid() {
-        let State { r, y1, x2, y2 } = State::from(&case.start);
-        case.start = State { r: if r > gap { 2.0 * gap - r } else { r }, y1, x2, y2 }.into();
+        let State { r, y1, x2, y2, .. } = State::from(&case.start);
+        case.start = State::of([if r > gap { 2.0 * gap - r } else { r }, y1, x2, y2]).into();
     }
 }
 
@@ -108,6 +110,26 @@ pub fn alike(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
         start_before_stop(case);
     }
     cases
+}
+
+/// The same capsules over folds, at random places of them.
+pub fn over_folds(cases: Vec<Case>, seed: u64) -> Vec<Case> {
+    let mut random = Random::new(seed ^ 0xf01d);
+    cases.into_iter().map(|case| over_folds_of(case, &mut random)).collect()
+}
+
+/// The same capsule over random folds.
+fn over_folds_of(case: Case, random: &mut Random) -> Case {
+    let mut parameters = case.parameters.of_extension(&CAPSULE_OVER_FOLDS);
+    // A motion of 1 m/s passes a twentieth of a spacing in a period to twenty spacings.
+    parameters[Parameter::FoldSpacing] = parameters.drive_period() * random.logarithmic(0.05, 20.0);
+    parameters[Parameter::FoldFriction] = random.or_least(0.0, 2.0);
+    parameters[Parameter::FoldForce] = random.or_least(0.0, 0.5) * parameters.normal_load();
+    parameters[Parameter::FoldSharpness] = random.or_least(0.0, 10.0);
+    let State { r, y1, x2, y2, .. } = case.start.capsule();
+    let start =
+        description::State::new(&CAPSULE_OVER_FOLDS, &[r, y1, x2, y2, random.uniform(0.0, 1.0)]);
+    Case { parameters, start, ..case }
 }
 
 /// Makes a capsule a member of the family: what its equations have from `shapes`, with what from `values`.
@@ -207,7 +229,7 @@ pub fn cases(count: usize, seed: u64) -> Vec<Case> {
         ]);
         let (r, y1) = (uniform(-2e-3, 2e-3), uniform(-0.2, 0.2));
         let y2 = if uniform(0.0, 1.0) < 0.5 { 0.0 } else { uniform(-0.2, 0.2) };
-        Case::at_section(parameters, State { r, y1, x2: 0.0, y2 }, uniform(0.0, 6.0))
+        Case::at_section(parameters, State::of([r, y1, 0.0, y2]), uniform(0.0, 6.0))
     };
     (0..count).map(|_| draw()).collect()
 }

@@ -164,7 +164,7 @@ fn without_a_drive_everything_comes_to_rest() {
         assert_eq!(still.outputs[output], 0.0, "{}", output.name());
     }
     assert!(kinds(&p, State::default(), 20).is_empty());
-    let start = State { r: 3e-3, y1: -0.2, x2: 0.0, y2: 0.1 };
+    let start = State::of([3e-3, -0.2, 0.0, 0.1]);
     let rung = settle(&p, 0.0, start, &Protocol::default());
     assert_eq!((rung.outcome, rung.period), (Outcome::Periodic, 1));
     assert_eq!(rung.end.capsule().y2, 0.0);

@@ -222,7 +222,7 @@ fn the_mirror_image_moves_to_the_other_side_to_the_bit() {
             p
         };
         let runs = [1.0, -1.0].map(|side| {
-            let start = State { r: side * 1e-5, y1: side * 0.01, x2: 0.0, y2: 0.0 };
+            let start = State::of([side * 1e-5, side * 0.01, 0.0, 0.0]);
             simulate(&image(side), 0.3, start, 60, 1e-12).section
         });
         for (a, b) in runs[0].iter().zip(&runs[1]) {

@@ -8,7 +8,7 @@ use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::Protocol;
 use capsulemap_models::capsule::{
     self, AsPrinted, CapsuleParameters as _, CapsuleState as _, Case, EventKind, Filippov, Form,
-    General, Orbit, Parameter, Parameters, Reading, Simulation, State,
+    General, Orbit, OverFolds, Parameter, Parameters, Reading, Simulation, State,
 };
 use capsulemap_models::description::Presence;
 use capsulemap_models::model::CaseQueue;
@@ -42,9 +42,14 @@ pub fn simulate_by(
     let expected = (states, events);
     for instructions in instructions {
         let others = match parameters.form() {
-            Form::Filippov => among_others::<Filippov>(*instructions, &case, cycles, tolerance),
-            Form::AsPrinted => among_others::<AsPrinted>(*instructions, &case, cycles, tolerance),
-            Form::General => among_others::<General>(*instructions, &case, cycles, tolerance),
+            Form::Filippov => among_others::<Filippov, 3>(*instructions, &case, cycles, tolerance),
+            Form::AsPrinted => {
+                among_others::<AsPrinted, 3>(*instructions, &case, cycles, tolerance)
+            }
+            Form::General => among_others::<General, 3>(*instructions, &case, cycles, tolerance),
+            Form::OverFolds => {
+                among_others::<OverFolds, 4>(*instructions, &case, cycles, tolerance)
+            }
         };
         assert!(others == expected, "{} lanes, another motion: {case:?}", instructions.name());
     }
@@ -109,17 +114,17 @@ impl CaseQueue for CaseAmongOthers<'_> {
     }
 }
 
-fn among_others<R: Reading>(
+fn among_others<R: Reading<D>, const D: usize>(
     instructions: Instructions,
     case: &Case,
     cycles: u64,
     tolerance: f64,
 ) -> Course {
-    instructions.run(Among::<R> { case, cycles, tolerance, reading: PhantomData })
+    instructions.run(Among::<R, D> { case, cycles, tolerance, reading: PhantomData })
 }
 
 /// A case in the last lane, with others before it.
-struct Among<'a, R> {
+struct Among<'a, R, const D: usize> {
     case: &'a Case,
     cycles: u64,
     tolerance: f64,
@@ -128,7 +133,7 @@ struct Among<'a, R> {
 
 type Course = (Vec<[u64; 4]>, Vec<(u64, EventKind)>);
 
-impl<R: Reading> Work for Among<'_, R> {
+impl<R: Reading<D>, const D: usize> Work for Among<'_, R, D> {
     /// States at the section and events, until the case is done or cannot go on.
     type Output = Course;
 

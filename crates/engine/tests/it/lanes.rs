@@ -24,7 +24,7 @@ fn cases(count: usize) -> Vec<(Parameters, State<f64>)> {
             p[Parameter::Delta] = ((3 * i) % 7) as f64 * 6e-4;
             p[Parameter::MuS] = 0.3 + 0.5 * share;
             let y2 = if i % 3 == 0 { 0.05 } else { 0.0 };
-            (p, State { r: -1e-3 * share, y1: 0.1 * share, x2: 0.0, y2 })
+            (p, State::of([-1e-3 * share, 0.1 * share, 0.0, y2]))
         })
         .collect()
 }

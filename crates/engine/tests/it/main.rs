@@ -33,6 +33,7 @@ mod neighbourhoods;
 mod neutral;
 mod observers;
 mod oscillators;
+mod over_folds;
 mod paper;
 mod passages;
 mod prescribed;

@@ -25,7 +25,7 @@ fn starts() -> Vec<Case> {
         (Parameter::Delta, 4.33e-3),
         (Parameter::Omega, 155.0),
     ]);
-    let start = |r: f64, y1: f64| State { r, y1, x2: 0.0, y2: 0.0 };
+    let start = |r: f64, y1: f64| State::of([r, y1, 0.0, 0.0]);
     let all = [-6e-3, 0.0, 6e-3].iter().flat_map(|r| [-1.0, 0.0, 1.0].map(|y1| start(*r, y1)));
     all.map(|start| Case::at_section(parameters.clone(), start, 0.0)).collect()
 }

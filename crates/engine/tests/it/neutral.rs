@@ -52,7 +52,7 @@ fn a_capsule_without_friction_of_sliding_is_neutral_and_of_least_period() {
     let [r, y1, y2] = orbit.section[0].array();
     let speed = orbit.outputs[Output::ProgressionSpeed];
     for faster in [-0.01, 0.003, 0.02] {
-        let start = State { r, y1: y1 + faster, x2: 0.0, y2: y2 + faster };
+        let start = State::of([r, y1 + faster, 0.0, y2 + faster]);
         let other = settle(&p, 0.0, start, &Protocol::default());
         check(&other, "from another member");
         let gain = other.outputs[Output::ProgressionSpeed] - speed;

@@ -179,8 +179,8 @@ fn the_derivatives_of_the_sums_are_those_of_differences() {
 
 #[test]
 fn a_point_of_the_section_is_what_the_state_shows_of_it() {
-    let state = State { r: 1.0, y1: 2.0, x2: 3.0, y2: 4.0 };
+    let state = State::of([1.0, 2.0, 3.0, 4.0]);
     assert_eq!(Capsule::<f64>::point(&state), [1.0, 2.0, 4.0]);
     let moved = Capsule::<f64>::moved_to(state, [5.0, 6.0, 7.0]);
-    assert_eq!(moved, State { r: 5.0, y1: 6.0, x2: 3.0, y2: 7.0 });
+    assert_eq!(moved, State::of([5.0, 6.0, 3.0, 7.0]));
 }

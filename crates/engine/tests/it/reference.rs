@@ -32,7 +32,7 @@ fn every_reference_trajectory_is_reproduced() {
             parameters[parameter] = number(case, parameter.symbol());
         }
         let of = |key| number(&case["start"], key);
-        let start = State { r: of("r"), y1: of("y1"), x2: of("x2"), y2: of("y2") };
+        let start = State::of([of("r"), of("y1"), of("x2"), of("y2")]);
         let simulation = simulate(&parameters, 0.0, start, 20, 1e-12);
         assert!(simulation.failure.is_none(), "case {id}");
         for (sample, expected) in simulation.section.iter().zip(case["section"].as_array().unwrap())
@@ -92,7 +92,7 @@ fn every_reference_trajectory_over_the_wide_box_is_reproduced() {
             }
         }
         let start = |key| number(&case["start"], key);
-        let start = State { r: start("r"), y1: start("y1"), x2: start("x2"), y2: start("y2") };
+        let start = State::of([start("r"), start("y1"), start("x2"), start("y2")]);
         let cycles = case["cycles"].as_u64().expect("cycles");
         let simulation = simulate_by(&instructions, &parameters, of("phase"), start, cycles, 1e-12);
         assert!(simulation.failure.is_none(), "case {}", case["id"]);

@@ -35,8 +35,9 @@ enum Guard {
 pub fn follow(p: &Parameters, phase: f64, start: State<f64>, cycles: u64) -> Vec<Vector> {
     let state = [start.r, start.y1, start.x2, start.y2];
     let line = Line::default();
-    let mut second =
-        Second { p, phase, touched: [false; 2], let_go: [false; 2], slip: 0.0, line, scale: LEAST };
+    let begins = start.place;
+    let (touched, let_go) = ([false; 2], [false; 2]);
+    let mut second = Second { p, phase, begins, touched, let_go, slip: 0.0, line, scale: LEAST };
     let beyond = [0, 1].map(|stop| second.depth(stop, &state) > 0.0);
     assert!(!(beyond[0] && second.is_rigid()), "no motion starts behind a rigid stop");
     second.let_go =
@@ -117,8 +118,8 @@ impl Second<'_> {
             return guards;
         }
         let push = self.push(t, state);
-        guards.push((Guard::BreakAway(1.0), self.break_away(1.0) - push));
-        guards.push((Guard::BreakAway(-1.0), self.break_away(-1.0) + push));
+        guards.push((Guard::BreakAway(1.0), self.break_away(1.0, state) - push));
+        guards.push((Guard::BreakAway(-1.0), self.break_away(-1.0, state) + push));
         guards
     }
 

@@ -1,10 +1,10 @@
 //! The capsule without the bound on its steps: a system that breaks the contract, for the checks to find.
 
-use capsulemap_engine::flow::{Field, Stroboscopic, Switched, Zeros};
+use capsulemap_engine::flow::{Field, Metric, Stroboscopic, Switched, Zeros};
 use capsulemap_engine::lane::{Lane, Series, SideBySide};
 use capsulemap_models::capsule::{
-    Capsule, DriveSeries, EventKind, Jet, Locomotion, Parameter, Parameters, Reading, Shape, State,
-    filippov,
+    Capsule, CapsuleParameters, DriveSeries, EventKind, Jet, Locomotion, Parameter, Parameters,
+    Reading, Shape, State, filippov,
 };
 
 /// A capsule whose steps are paced by its series alone, so that they can jump over the layer around rest.
@@ -137,6 +137,10 @@ impl Reading for Blind {
     type Mode<L: Lane> = filippov::Mode<L>;
     type Single = Unbounded<f64>;
     type In<L: Lane> = Unbounded<L>;
+
+    fn metric(parameters: &Parameters) -> Metric<3> {
+        CapsuleParameters::metric(parameters)
+    }
 
     fn single(parameters: &Parameters, phase: f64) -> Unbounded<f64> {
         Unbounded::single(parameters, phase)

@@ -24,7 +24,7 @@ fn apart(a: &[f64; 3], b: &[f64; 3], omega: f64) -> f64 {
 /// The section points of the motion from the orbit's own, without derivatives and more accurately.
 fn points(case: &Case, orbit: &Orbit) -> Vec<[f64; 3]> {
     let [r, y1, y2] = orbit.section[0].array();
-    let start = State { r, y1, x2: 0.0, y2 };
+    let start = State::of([r, y1, 0.0, y2]);
     let run = simulate(&case.parameters, case.section_phase, start, orbit.period, 1e-14);
     run.section.iter().map(|sample| [sample.r, sample.y1, sample.y2]).collect()
 }
@@ -100,7 +100,7 @@ fn is_held(case: &Case, orbit: &Orbit) -> bool {
     let p = &case.parameters;
     let span = HistorySpan { cycles: orbit.period as u32, per_cycle: 400, from_start: true };
     let [r, y1, y2] = orbit.section[0].array();
-    let from = Case::at_section(p.clone(), State { r, y1, x2: 0.0, y2 }, case.section_phase);
+    let from = Case::at_section(p.clone(), State::of([r, y1, 0.0, y2]), case.section_phase);
     let history =
         samples::<CapsuleSystem<AsPrinted>, 3>(&from, span, 1e-12).expect("it goes on").histories;
     let force = |state: &State<f64>| {
@@ -117,7 +117,7 @@ fn comes_back(case: &Case, orbit: &Orbit, about: &str) {
     let [r, y1, _] = orbit.section[0].array();
     let size = points(case, orbit).iter().map(|it| apart(it, &[0.0; 3], omega)).fold(0.0, f64::max);
     for push in [1e-7, -1e-7] {
-        let start = State { r, y1, x2: 0.0, y2: push * size };
+        let start = State::of([r, y1, 0.0, push * size]);
         let run = simulate(&case.parameters, case.section_phase, start, orbit.period, 1e-13);
         let end = run.section.last().expect("a section");
         assert_eq!(end.y2, 0.0, "{about}");
@@ -162,8 +162,7 @@ fn certified_orbits_are_those_of_a_second_method() {
                 continue;
             }
             let [r, y1, y2] = orbit.section[0].array();
-            let sections =
-                follow(p, case.section_phase, State { r, y1, x2: 0.0, y2 }, orbit.period);
+            let sections = follow(p, case.section_phase, State::of([r, y1, 0.0, y2]), orbit.period);
             let omega = p[Parameter::Omega];
             let end = sections.last().expect("the start");
             let size = apart(&orbit.section[0].array(), &[0.0; 3], omega);

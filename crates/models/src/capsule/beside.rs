@@ -20,9 +20,18 @@ pub struct Beside<L> {
     pub rear_peak_force: L,
     /// Least distance between a local minimum of r and the rear stop [m]; infinite while there is none.
     pub rear_margin: L,
+    /// Integral of the force of the folds over time, forward positive [N s].
+    pub fold_impulse: L,
 }
 
-side_by_side!(Beside { contact_loss, drag_loss, rear_impacts, rear_peak_force, rear_margin });
+side_by_side!(Beside {
+    contact_loss,
+    drag_loss,
+    fold_impulse,
+    rear_impacts,
+    rear_peak_force,
+    rear_margin
+});
 
 impl<L: Lane> Beside<L> {
     /// Nothing seen yet.
@@ -34,6 +43,7 @@ impl<L: Lane> Beside<L> {
             rear_impacts: zero,
             rear_peak_force: zero,
             rear_margin: L::splat(f64::INFINITY),
+            fold_impulse: zero,
         }
     }
 
@@ -58,6 +68,7 @@ impl<L: Lane> Beside<L> {
         self.contact_loss = self.contact_loss + damped;
         let dragged = integral_of_product(&values(&parts.drag, length), &y2, length);
         self.drag_loss = self.drag_loss + dragged;
+        self.fold_impulse = self.fold_impulse + series::integral(&parts.folds, length);
         self.rear_peak_force = self.rear_peak_force.max(peak(&parts.stops[1], length));
         peak(&parts.stops[0], length)
     }

@@ -4,7 +4,7 @@ use capsulemap_engine::branch::NotFollowed;
 
 use super::parameters::CapsuleParameters as _;
 use super::shape::Form;
-use super::system::{AsPrinted, CapsuleSystem, Filippov, General};
+use super::system::{AsPrinted, CapsuleSystem, Filippov, General, OverFolds};
 use crate::face;
 pub use crate::motion::branch::{Branch, Found, Point, Request, Special};
 
@@ -17,5 +17,6 @@ pub fn follow(request: &Request) -> Result<Found, NotFollowed> {
         Form::Filippov => face::follow::<CapsuleSystem<Filippov>, 3>(request),
         Form::AsPrinted => face::follow::<CapsuleSystem<AsPrinted>, 3>(request),
         Form::General => face::follow::<CapsuleSystem<General>, 3>(request),
+        Form::OverFolds => face::follow::<CapsuleSystem<OverFolds>, 4>(request),
     }
 }

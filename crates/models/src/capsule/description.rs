@@ -1,6 +1,7 @@
 //! What the capsule says of itself: the quantities of its starts, sections, impacts, histories, parameters and outputs.
 
 use super::output::{Output, Outputs};
+use super::over_folds::CAPSULE_OVER_FOLDS;
 use super::parameter::Parameter;
 use super::quantities::{
     EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, END_R, END_Y1, END_Y2, NEUTRAL_R, NEUTRAL_Y1,
@@ -22,9 +23,13 @@ use crate::quantity::Quantity;
 pub const SECTION: &[Quantity] = &[SECTION_R, SECTION_Y1, SECTION_Y2];
 
 /// The capsule.
-pub static CAPSULE: Description = Description {
+pub static CAPSULE: Description = ON_EVEN_GROUND;
+
+/// What a capsule on even ground says of itself, which others go on from.
+pub(super) const ON_EVEN_GROUND: Description = Description {
     name: "capsule",
-    parameters: &PARAMETERS,
+    extends: None,
+    parameters: PARAMETERS.split_at(Parameter::ALL.len()).0,
     choices: &[
         Choice {
             name: "resistance",
@@ -50,7 +55,7 @@ pub static CAPSULE: Description = Description {
             name: "drive",
             noun: "drive",
             title: "Drive",
-            meaning: "how the force on the mass depends on the phase of the drive",
+            meaning: "what moves the mass, by the phase of the drive",
             options: &DriveKind::OPTIONS,
             tag: "drive",
             option_tags: &[
@@ -99,7 +104,7 @@ pub static CAPSULE: Description = Description {
     edge: &[EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2],
     end: &[END_R, END_Y1, END_Y2],
     motion: signals::MOTION,
-    outputs: &OUTPUTS,
+    outputs: OUTPUTS.split_at(Output::ALL.len()).0,
     roles: Roles {
         drive: Some(DriveRoles {
             frequency: Parameter::Omega as usize,
@@ -152,21 +157,23 @@ pub static CAPSULE: Description = Description {
     rules: RULES,
 };
 
-static OUTPUTS: [OutputDescription; Output::ALL.len()] = {
-    let mut all = [Output::ProgressionSpeed.description(); Output::ALL.len()];
+/// All outputs, those of folds last.
+pub(super) const OUTPUTS: &[OutputDescription] = &{
+    let mut all = [Output::ProgressionSpeed.description(); Output::OVER_FOLDS.len()];
     let mut index = 0;
     while index < all.len() {
-        all[index] = Output::ALL[index].description();
+        all[index] = Output::OVER_FOLDS[index].description();
         index += 1;
     }
     all
 };
 
-static PARAMETERS: [ParameterDescription; Parameter::ALL.len()] = {
-    let mut all = [Parameter::M1.description(); Parameter::ALL.len()];
+/// All parameters, those of folds last.
+pub(super) const PARAMETERS: &[ParameterDescription] = &{
+    let mut all = [Parameter::M1.description(); Parameter::OVER_FOLDS.len()];
     let mut index = 0;
     while index < all.len() {
-        all[index] = Parameter::ALL[index].description();
+        all[index] = Parameter::OVER_FOLDS[index].description();
         index += 1;
     }
     all
@@ -178,8 +185,14 @@ impl Parameter {
         let (name, dimension, meaning) = (self.symbol(), self.dimension(), self.meaning());
         let quantity = Quantity { name, dimension, meaning, shown: parameter_shown(self) };
         let (allowed, default) = (self.allowed(), self.default_value());
-        let is_asked_for =
-            matches!(self, Parameter::Omega | Parameter::Pd | Parameter::K2 | Parameter::Delta);
+        let is_asked_for = matches!(
+            self,
+            Parameter::Omega
+                | Parameter::Pd
+                | Parameter::K2
+                | Parameter::Delta
+                | Parameter::FoldSpacing
+        );
         let (tag, presence) = (self.tag(), self.presence());
         let replaces = match self {
             Parameter::Period => Some(Parameter::Omega as usize),
@@ -191,7 +204,8 @@ impl Parameter {
 
     /// It as a parameter that the description of the capsule tells of.
     pub const fn described(self) -> description::Parameter {
-        description::Parameter::of(&CAPSULE, self as usize)
+        let model = if self.is_of_folds() { &CAPSULE_OVER_FOLDS } else { &CAPSULE };
+        description::Parameter::of(model, self as usize)
     }
 
     /// Of a parameter of the capsule, which it is.
@@ -199,8 +213,9 @@ impl Parameter {
     /// # Panics
     /// Where it is a parameter of another model.
     pub fn which(parameter: description::Parameter) -> Parameter {
-        assert!(*parameter.model() == CAPSULE, "{parameter:?} is no parameter of the capsule");
-        Parameter::ALL[parameter.index()]
+        let is_its = parameter.model().shares_with(&CAPSULE);
+        assert!(is_its, "{parameter:?} is no parameter of the capsule");
+        Parameter::OVER_FOLDS[parameter.index()]
     }
 }
 
@@ -235,7 +250,8 @@ impl Output {
 
     /// It as an output that the description of the capsule tells of.
     pub const fn described(self) -> description::Output {
-        description::Output::of(&CAPSULE, self as usize)
+        let model = if self.is_of_folds() { &CAPSULE_OVER_FOLDS } else { &CAPSULE };
+        description::Output::of(model, self as usize)
     }
 }
 
@@ -266,10 +282,11 @@ impl From<State<f64>> for description::State {
 
 impl From<&description::State> for State<f64> {
     fn from(state: &description::State) -> Self {
-        let &[r, y1, x2, y2] = state.values() else {
-            panic!("{state:?} is no state of the capsule")
-        };
-        State { r, y1, x2, y2 }
+        match *state.values() {
+            [r, y1, x2, y2] => State { r, y1, x2, y2, place: 0.0 },
+            [r, y1, x2, y2, place] => State { r, y1, x2, y2, place },
+            _ => panic!("{state:?} is no state of the capsule"),
+        }
     }
 }
 
@@ -280,8 +297,9 @@ impl Default for description::State {
     }
 }
 
+/// On even ground.
 impl From<Outputs> for description::Outputs {
     fn from(outputs: Outputs) -> Self {
-        description::Outputs::new(&CAPSULE, outputs.values())
+        description::Outputs::new(&CAPSULE, &outputs.values()[..Output::ALL.len()])
     }
 }

@@ -93,6 +93,21 @@ impl<L: Lane> Drag<L> {
         }
     }
 
+    /// The same law whose resistance is so many times as large.
+    #[inline(always)]
+    pub fn times(&self, factor: L) -> Self {
+        Drag {
+            law: self.law,
+            dynamic: self.dynamic * factor,
+            static_limit: self.static_limit * factor,
+            at_onset: self.at_onset * factor,
+            break_away: self.break_away * factor,
+            inverse_stribeck: self.inverse_stribeck,
+            linear: self.linear * factor,
+            quadratic: self.quadratic * factor,
+        }
+    }
+
     /// How many leading coefficients of |y2| vanish when the capsule leaves rest at `f_b`.
     ///
     /// With a static limit above the dynamic friction the acceleration jumps (one); with none above

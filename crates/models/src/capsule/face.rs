@@ -6,7 +6,6 @@ use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{OrbitOf, Outcome, Protocol};
 
 use super::account::Account;
-use super::description::CAPSULE;
 use super::locomotion::Locomotion as _;
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
@@ -18,9 +17,9 @@ use crate::description::{self, Description, Parameters};
 use crate::face::Face;
 use crate::motion::{Case, Orbit, Sensitivity};
 
-impl<R: Reading> Face<3> for CapsuleSystem<R> {
+impl<R: Reading<D>, const D: usize> Face<D> for CapsuleSystem<R> {
     fn description() -> &'static Description {
-        &CAPSULE
+        R::description()
     }
 
     fn of(parameters: &Parameters, phase: f64) -> Self {
@@ -36,7 +35,10 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
     }
 
     fn told(state: &State<f64>) -> description::State {
-        (*state).into()
+        let place = state.place - state.place.floor();
+        let all = [state.r, state.y1, state.x2, state.y2, place];
+        let model = R::description();
+        description::State::new(model, &all[..model.coordinates.len()])
     }
 
     fn driven(&self, single: &R::Single, step: &Step<f64, R::Single>, h: f64) -> Vec<f64> {
@@ -54,11 +56,12 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
         [before, _]: [State<f64>; 2],
     ) -> Vec<description::State> {
         let sliding = State { y2: single.direction(ended) * f64::MIN_POSITIVE, ..before };
-        match event {
-            EventKind::Stick => vec![sliding.into(), State { y2: 0.0, ..before }.into()],
-            EventKind::Reversal => vec![sliding.into()],
-            _ => vec![before.into()],
-        }
+        let states = match event {
+            EventKind::Stick => vec![sliding, State { y2: 0.0, ..before }],
+            EventKind::Reversal => vec![sliding],
+            _ => vec![before],
+        };
+        states.iter().map(Self::told).collect()
     }
 
     fn sums(observed: &Account<f64>) -> Vec<f64> {
@@ -69,7 +72,13 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
         vec![observed.impacts as u64]
     }
 
-    fn judged(orbit: OrbitOf<Self, 3>, case: &Case, protocol: &Protocol) -> OrbitOf<Self, 3> {
+    /// Nothing is behind a rigid stop.
+    fn has_no_start(case: &Case) -> bool {
+        let is_rigid = case.parameters.shape().is_rigid();
+        is_rigid && Self::state(&case.start).r > case.parameters[Parameter::Delta]
+    }
+
+    fn judged(orbit: OrbitOf<Self, D>, case: &Case, protocol: &Protocol) -> OrbitOf<Self, D> {
         let is_balanced = is_balanced(&orbit, &case.parameters, protocol.tolerance);
         if is_balanced { orbit } else { orbit.withdrawn() }
     }
@@ -91,17 +100,18 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
         sticks.then(|| remark.to_owned()).into_iter().collect()
     }
 
-    fn outputs(&self, orbit: &OrbitOf<Self, 3>, recurrence: f64) -> description::Outputs {
-        outputs(orbit, &self.parameters, recurrence).into()
+    fn outputs(&self, orbit: &OrbitOf<Self, D>, recurrence: f64) -> description::Outputs {
+        R::told(&outputs(orbit, &self.parameters, recurrence))
     }
 
     fn per_cycle(&self, observed: &Account<f64>, cycles: f64) -> description::Outputs {
-        per_cycle(observed, |it| self.parameters[it], self.parameters.shape(), cycles).into()
+        let shape = self.parameters.shape();
+        R::told(&per_cycle(observed, |it| self.parameters[it], shape, cycles))
     }
 
     fn sensitivity(
         &self,
-        section: &[f64; 3],
+        section: &[f64; D],
         cycles: Cycles,
         parameter: Parameter,
     ) -> Option<Sensitivity> {

@@ -316,7 +316,7 @@ impl<L: Lane> Stroboscopic<L, 3> for Capsule<L> {
 
     #[inline(always)]
     fn state([r, y1, y2]: [L; 3]) -> State<L> {
-        State { r, y1, x2: L::splat(0.0), y2 }
+        State::of([r, y1, L::splat(0.0), y2])
     }
 
     #[inline(always)]
@@ -337,10 +337,10 @@ impl Field for Capsule<f64> {
         let force = self.force(mode, state);
         let acceleration = (self.drive.force(time) - force) * self.inverse_m1;
         if mode.slip == 0.0 {
-            return State { r: y1, y1: acceleration, x2: 0.0, y2: 0.0 };
+            return State { r: y1, y1: acceleration, ..State::default() };
         }
         let push = force - self.drag.force(mode.slip, y2);
-        State { r: y1 - y2, y1: acceleration, x2: y2, y2: push * self.inverse_m2 }
+        State::of([y1 - y2, acceleration, y2, push * self.inverse_m2])
     }
 
     /// A displacement r or x2 counts as the velocity omega r.

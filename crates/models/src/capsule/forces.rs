@@ -1,6 +1,6 @@
 //! The forces on the capsule in a state of the motion.
 
-use super::general::{Ground, Springs, Touched};
+use super::general::{Folds, Ground, Springs, Touched};
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::state::State;
@@ -17,6 +17,8 @@ pub struct Forces {
     pub of_mass: f64,
     /// Of the friction on the capsule, against its motion while it slides; at rest what moves it otherwise.
     pub friction: f64,
+    /// Of the folds on the capsule, forward positive; zero on even ground.
+    pub folds: f64,
 }
 
 impl Forces {
@@ -26,6 +28,7 @@ impl Forces {
         let shape = parameters.shape();
         let springs = Springs::new(|it| parameters[it], shape);
         let ground = Ground::new(|it| parameters[it], shape);
+        let folds = Folds::new(|it| parameters[it], shape).exactly_at(state.place);
         let is_beyond = Touched {
             front: springs.front.at < state.r,
             rear: springs.has_rear() && state.r < springs.rear.at,
@@ -37,10 +40,10 @@ impl Forces {
         };
         let reaction = if shape.reacts() { drive } else { 0.0 };
         let own = springs.force(&touched, state);
-        let external = drive - reaction + ground.pull + ground.push;
+        let external = drive - reaction + ground.pull + ground.push + folds.pushes;
         let slides = match state.y2 {
             0.0 => None,
-            y2 => Some(ground.force(y2.signum(), y2)),
+            y2 => Some(folds.resists * ground.force(y2.signum(), y2)),
         };
         let is_at_stop = springs.is_rigid && state.r == springs.front.at && state.y1 == state.y2;
         let bearing = match slides {
@@ -58,7 +61,8 @@ impl Forces {
             contact: springs.of_front(&touched, state) + bearing,
             rear_contact: -springs.of_rear(&touched, state),
             of_mass,
-            friction: slides.unwrap_or(of_mass - reaction + ground.push),
+            friction: slides.unwrap_or(of_mass - reaction + ground.push + folds.pushes),
+            folds: folds.pushes,
         }
     }
 }

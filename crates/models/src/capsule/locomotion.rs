@@ -118,6 +118,8 @@ pub struct Parts<L: Lane> {
     pub damping: L,
     /// The drag on the capsule while it slides [N].
     pub drag: Series<L>,
+    /// The force of the folds on the capsule, forward positive [N].
+    pub folds: Series<L>,
 }
 
 /// Whether the mass touches the stop.

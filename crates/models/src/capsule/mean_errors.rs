@@ -28,9 +28,9 @@ pub const ERRORS: [Output; 7] = [
 /// deviation of the means of the batches over the root of their number.
 /// Assumes: batches are long against the memory of the motion. That of a quasi-periodic motion never fades; its error is that
 /// of the batches all the same.
-pub(super) fn add(
+pub(super) fn add<const D: usize>(
     outputs: &mut Outputs,
-    orbit: &orbit::Orbit<State<f64>, Account<f64>, 3>,
+    orbit: &orbit::Orbit<State<f64>, Account<f64>, D>,
     parameters: &Parameters,
 ) {
     if orbit.outcome == Outcome::Periodic {
@@ -46,7 +46,9 @@ pub(super) fn add(
 }
 
 /// The means per cycle of each batch, in the order of [`ERRORS`], the progression [m] in the place of its speed.
-fn of_batches(orbit: &orbit::Orbit<State<f64>, Account<f64>, 3>) -> Vec<[f64; ERRORS.len()]> {
+fn of_batches<const D: usize>(
+    orbit: &orbit::Orbit<State<f64>, Account<f64>, D>,
+) -> Vec<[f64; ERRORS.len()]> {
     let ends = batch_ends(orbit.measured_cycles, BATCHES as u64);
     let (mut before, mut cycles_before) = ([0.0; ERRORS.len()], 0);
     let mut means = Vec::new();

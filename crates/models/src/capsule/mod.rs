@@ -17,6 +17,7 @@ mod impacts;
 mod locomotion;
 pub mod mean_errors;
 pub mod output;
+pub mod over_folds;
 pub mod parameter;
 pub mod parameters;
 pub mod printed;
@@ -58,4 +59,4 @@ pub use settle::{
 pub use shape::{DriveKind, Form, Reaction, Release, Shape};
 pub use simulate::{Event, Sample, Simulation, simulate, simulate_case};
 pub use state::{CapsuleState, EventKind, Jet, State};
-pub use system::{AsPrinted, CapsuleSystem, Filippov, General, Reading};
+pub use system::{AsPrinted, CapsuleSystem, Filippov, General, OverFolds, Reading};

@@ -15,8 +15,8 @@ macro_rules! outputs {
         }
 
         impl Output {
-            /// Every output, in the order of files and tables.
-            pub const ALL: &[Output] = &[$(Output::$variant,)*];
+            /// Every output of a capsule over folds: those of one on even ground, then that of the folds.
+            pub const OVER_FOLDS: &[Output] = &[$(Output::$variant,)*];
 
             /// The name used in studies and files.
             pub const fn name(self) -> &'static str {
@@ -78,9 +78,18 @@ outputs! {
     RearImpactsPerCycle "rear_impacts_per_cycle" Number "impacts on the rear stop per cycle";
     RearPeakContactForce "rear_peak_contact_force" Force "largest force of the rear stop";
     RearGrazingMargin "rear_grazing_margin" Length "least distance between a local minimum of x1 - x2 and the rear stop";
+    FoldsPerPeriod "folds_per_period" Number "folds that a locked motion passes in its period, backward negative; unknown where it does not repeat";
 }
 
 impl Output {
+    /// Every output of a capsule on even ground, in the order of files and tables.
+    pub const ALL: &[Output] = Output::OVER_FOLDS.split_at(Output::FoldsPerPeriod as usize).0;
+
+    /// Whether it is one of folds.
+    pub const fn is_of_folds(self) -> bool {
+        self as usize >= Output::ALL.len()
+    }
+
     /// The output called `name`, if there is one.
     pub fn named(name: &str) -> Option<Output> {
         Output::ALL.iter().copied().find(|output| output.name() == name)
@@ -114,7 +123,7 @@ impl Output {
 
     /// Whether only members of the family have more to tell by it than zero.
     pub const fn is_optional(self) -> bool {
-        self as usize > Output::DamperLossError as usize
+        self as usize > Output::DamperLossError as usize && !self.is_of_folds()
     }
 
     /// Its unit; "1" where it has none.
@@ -125,15 +134,15 @@ impl Output {
 
 /// A value for every output (SI), in numbers of any kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Outputs<L = f64>([L; Output::ALL.len()]);
+pub struct Outputs<L = f64>([L; Output::OVER_FOLDS.len()]);
 
 impl<L: Lane> Outputs<L> {
     /// Nothing known: NaN everywhere.
     pub fn unknown() -> Self {
-        Outputs([L::splat(f64::NAN); Output::ALL.len()])
+        Outputs([L::splat(f64::NAN); Output::OVER_FOLDS.len()])
     }
 
-    /// The values, in the order of [`Output::ALL`].
+    /// The values, in the order of [`Output::OVER_FOLDS`].
     pub fn values(&self) -> &[L] {
         &self.0
     }

@@ -12,8 +12,8 @@ macro_rules! parameters {
         }
 
         impl Parameter {
-            /// Every parameter, in the order of the paper's Table 1; those after it are optional.
-            pub const ALL: &[Parameter] = &[$(Parameter::$variant,)*];
+            /// Every parameter of a capsule over folds: those of one on even ground, then those of the folds.
+            pub const OVER_FOLDS: &[Parameter] = &[$(Parameter::$variant,)*];
 
             /// The symbol used in studies, on the command line and in files.
             pub const fn symbol(self) -> &'static str {
@@ -91,13 +91,27 @@ parameters! {
     C1Backward "c1_backward" Damping NonNegative 0.0 "linear drag of backward motion";
     C2Forward "c2_forward" QuadraticDamping NonNegative 0.0 "quadratic drag of forward motion";
     C2Backward "c2_backward" QuadraticDamping NonNegative 0.0 "quadratic drag of backward motion";
+    FoldSpacing "fold_spacing" Length Positive 0.02 "distance from one fold to the next";
+    FoldFriction "fold_friction" Number NonNegative 0.0 "rise of the resistance at the top of a fold, relative to even ground";
+    FoldForce "fold_force" Force NonNegative 0.0 "largest force of a fold, backward before its top, forward behind it";
+    FoldSharpness "fold_sharpness" Number UpToTen 2.0 "sharpness of folds; 0 is a sine";
 }
 
 impl Parameter {
-    /// Where the equations have it: what follows the paper's parameters is there where it is given, and so is a drag beside friction.
+    /// Every parameter of a capsule on even ground, in the order of the paper's Table 1; those after it are optional.
+    pub const ALL: &[Parameter] = Parameter::OVER_FOLDS.split_at(Parameter::FoldSpacing as usize).0;
+
+    /// Whether it is one of folds.
+    pub const fn is_of_folds(self) -> bool {
+        self as usize >= Parameter::ALL.len()
+    }
+
+    /// Where the equations have it: what follows the paper's parameters is there where it is given, and so is a drag beside friction;
+    /// a capsule over folds always has theirs.
     pub const fn presence(self) -> Presence {
         match self {
             Parameter::C1 | Parameter::C2 => Presence::Told,
+            _ if self.is_of_folds() => Presence::Always,
             _ if self as usize > Parameter::C2 as usize => Presence::Optional,
             _ => Presence::Always,
         }
@@ -116,6 +130,6 @@ impl Parameter {
 
     /// The parameter with this symbol.
     pub fn named(symbol: &str) -> Option<Parameter> {
-        Parameter::ALL.iter().copied().find(|parameter| parameter.symbol() == symbol)
+        Parameter::OVER_FOLDS.iter().copied().find(|parameter| parameter.symbol() == symbol)
     }
 }

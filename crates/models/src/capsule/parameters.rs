@@ -132,7 +132,7 @@ impl CapsuleParameters for Parameters {
     }
 
     fn metric(&self) -> Metric<3> {
-        Metric { scales: [self.frequency(), 1.0, 1.0] }
+        Metric::new([self.frequency(), 1.0, 1.0])
     }
 
     fn onset_factor(&self) -> f64 {
@@ -153,7 +153,7 @@ impl CapsuleParameters for Parameters {
 
     fn break_away(&self) -> f64 {
         match self.form() {
-            Form::General => Balance::of(self).break_away,
+            Form::General | Form::OverFolds => Balance::of(self).break_away,
             Form::Filippov | Form::AsPrinted => self.drag().break_away,
         }
     }

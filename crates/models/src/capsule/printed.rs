@@ -316,7 +316,7 @@ impl<L: Lane> Stroboscopic<L, 3> for PrintedCapsule<L> {
 
     #[inline(always)]
     fn state([r, y1, y2]: [L; 3]) -> State<L> {
-        State { r, y1, x2: L::splat(0.0), y2 }
+        State::of([r, y1, L::splat(0.0), y2])
     }
 
     #[inline(always)]
@@ -337,7 +337,7 @@ impl Field for PrintedCapsule<f64> {
         let force = self.force(mode.closed, state);
         let acceleration = (self.drive.force(time) - force) / self.m1;
         if mode.slip == 0.0 {
-            return State { r: y1, y1: acceleration, x2: 0.0, y2: 0.0 };
+            return State { r: y1, y1: acceleration, ..State::default() };
         }
         // The rate of y2 with H = 1.
         let full = (force - self.drag.force(mode.slip, y2)) / self.m2;
@@ -347,7 +347,7 @@ impl Field for PrintedCapsule<f64> {
             let k = self.stiffness(mode.closed);
             share = (k * y1 + self.c * acceleration) / (k * y2 + self.c * full);
         }
-        State { r: y1 - share * y2, y1: acceleration, x2: share * y2, y2: share * full }
+        State::of([y1 - share * y2, acceleration, share * y2, share * full])
     }
 
     /// A displacement r or x2 counts as the velocity omega r.

@@ -6,7 +6,7 @@ use super::general::edge_at;
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::resistance::Switching;
-use super::shape::{DriveKind, Form, Reaction, Release};
+use super::shape::{DriveKind, Reaction, Release};
 use crate::description::{self, Parameters, Remark, Rules};
 
 /// What the capsule says of values beside each other.
@@ -20,7 +20,12 @@ fn no_effect(parameters: &Parameters, parameter: description::Parameter) -> Opti
 
 /// That static friction is too small to have an effect, and that nothing holds the mean force.
 fn remarks(parameters: &Parameters) -> Vec<Remark> {
-    let own = [idle_static_friction(parameters), runaway(parameters), idle_release(parameters)];
+    let own = [
+        idle_static_friction(parameters),
+        runaway(parameters),
+        idle_release(parameters),
+        idle_folds(parameters),
+    ];
     own.into_iter().flatten().collect()
 }
 
@@ -34,6 +39,16 @@ fn idle_release(parameters: &Parameters) -> Option<Remark> {
     })
 }
 
+/// That a way whose folds neither resist nor push is even.
+fn idle_folds(parameters: &Parameters) -> Option<Remark> {
+    let about = [Parameter::FoldFriction, Parameter::FoldForce];
+    let is_idle = parameters.shape().over_folds && about.iter().all(|it| parameters[*it] == 0.0);
+    is_idle.then(|| Remark {
+        about: described(&about),
+        text: "fold_friction = 0 and fold_force = 0: the folds have no effect".to_owned(),
+    })
+}
+
 /// These parameters, as a remark is about them.
 fn described(parameters: &[Parameter]) -> Vec<description::Parameter> {
     parameters.iter().map(|it| (*it).into()).collect()
@@ -41,7 +56,7 @@ fn described(parameters: &[Parameter]) -> Vec<description::Parameter> {
 
 /// That the capsule accelerates for ever once it slides on.
 fn runaway(parameters: &Parameters) -> Option<Remark> {
-    if parameters.form() != Form::General {
+    if !parameters.form().is_of_family() {
         return None;
     }
     let balance = Balance::of(parameters);
@@ -87,7 +102,7 @@ fn conflicts(parameters: &Parameters, phase: f64) -> Vec<Remark> {
 fn as_printed(parameters: &Parameters) -> Option<Remark> {
     let is_member = parameters.shape().is_member();
     let is_printed = parameters.switching() == Switching::AsPrinted;
-    let text = "the reading `as-printed` knows a harmonic drive, one stop and even ground alone; the family of capsules has the reading `filippov`";
+    let text = "the reading `as-printed` knows a harmonic drive, one stop and even ground without folds alone; all other capsules have the reading `filippov`";
     let about = parameters.stated().map(|(it, _)| it).filter(|it| parameters.is_given(*it));
     (is_member && is_printed).then(|| Remark { about: about.collect(), text: text.to_owned() })
 }
@@ -139,7 +154,7 @@ fn on_edge(parameters: &Parameters, phase: f64) -> Option<Remark> {
 
 /// Which member of the family a capsule is, in words; none where it is that of the paper.
 fn member(parameters: &Parameters) -> Option<String> {
-    if parameters.form() != Form::General {
+    if !parameters.form().is_of_family() {
         return None;
     }
     let shape = parameters.shape();
@@ -155,6 +170,7 @@ fn member(parameters: &Parameters) -> Option<String> {
         parts.push("its reaction on the capsule".to_owned());
     }
     for (is_part, name) in [
+        (shape.over_folds, "folds across the way"),
         (shape.has(Parameter::Incline), "an incline"),
         (shape.has(Parameter::Load), "a load"),
         (shape.has_rear_stop(), "a rear stop"),

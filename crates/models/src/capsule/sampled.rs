@@ -2,7 +2,7 @@
 
 use crate::capsule::{
     AsPrinted, CapsuleParameters as _, DriveSeries, Filippov, Form, General, Jet, Locomotion,
-    Parameter, Parameters, Reading, State,
+    OverFolds, Parameter, Parameters, Reading, State,
 };
 use crate::motion::reduced;
 use crate::quantity::Dimension;
@@ -186,14 +186,15 @@ pub fn sampled(
         }
     }
     let of_form = match parts.parameters.form() {
-        Form::Filippov => sampled_as::<Filippov>,
-        Form::AsPrinted => sampled_as::<AsPrinted>,
-        Form::General => sampled_as::<General>,
+        Form::Filippov => sampled_as::<Filippov, 3>,
+        Form::AsPrinted => sampled_as::<AsPrinted, 3>,
+        Form::General => sampled_as::<General, 3>,
+        Form::OverFolds => sampled_as::<OverFolds, 4>,
     };
     of_form(&parts, times, signals, directions, tolerance)
 }
 
-fn sampled_as<R: Reading>(
+fn sampled_as<R: Reading<D>, const D: usize>(
     motion: &Started,
     times: &[f64],
     signals: &[Signal],
@@ -201,13 +202,14 @@ fn sampled_as<R: Reading>(
     tolerance: f64,
 ) -> Result<Samples, Reason> {
     if directions.is_empty() {
-        let values = followed::<R, f64>(motion, |it| motion.value(it), times, signals, tolerance)?;
+        let values =
+            followed::<R, f64, D>(motion, |it| motion.value(it), times, signals, tolerance)?;
         return Ok(Samples { values, slopes: Vec::new() });
     }
     let mut samples =
         Samples { values: Vec::new(), slopes: vec![vec![Vec::new(); times.len()]; signals.len()] };
     for some in directions.chunks(AT_ONCE) {
-        let values = followed::<R, Number>(
+        let values = followed::<R, Number, D>(
             motion,
             |it| seeded(motion, it, some),
             times,
@@ -237,7 +239,7 @@ fn seeded(motion: &Started, direction: Direction, some: &[Direction]) -> Number 
 }
 
 /// The signals in numbers of one kind, by signal and time.
-fn followed<R: Reading, L: Lane>(
+fn followed<R: Reading<D>, L: Lane, const D: usize>(
     motion: &Started,
     of: impl Fn(Direction) -> L,
     times: &[f64],
@@ -251,6 +253,7 @@ fn followed<R: Reading, L: Lane>(
         y1: of(Direction::StartY1),
         x2: of(Direction::StartX2),
         y2: of(Direction::StartY2),
+        place: L::splat(motion.start.place),
     };
     // The phase within a turn, with the derivative of the phase itself.
     let turns = L::splat(reduced(motion.phase) - motion.phase);
@@ -268,7 +271,7 @@ fn followed<R: Reading, L: Lane>(
     while sampler.next < times.len() {
         let limits = (STEPS_PER_CYCLE, tolerance);
         let duration = cycle(&system, &mut course, &mut step, limits, |step| {
-            sampler.see::<R>(&system, step);
+            sampler.see::<R, D>(&system, step);
         })?;
         sampler.began = sampler.began + duration;
     }
@@ -286,9 +289,9 @@ struct Sampler<'a, L> {
 
 impl<L: Lane> Sampler<'_, L> {
     /// Reads the samples that lie in a step.
-    fn see<R: Reading>(&mut self, system: &R::In<L>, step: &Step<L, R::In<L>>)
+    fn see<R: Reading<D>, const D: usize>(&mut self, system: &R::In<L>, step: &Step<L, R::In<L>>)
     where
-        R::In<L>: Stroboscopic<L, 3> + Switched<L> + Locomotion<L>,
+        R::In<L>: Stroboscopic<L, D> + Switched<L> + Locomotion<L>,
     {
         let (jet, drive) = (system.jet(&step.jet), system.drive(&step.jet));
         while let Some(&time) = self.times.get(self.next) {

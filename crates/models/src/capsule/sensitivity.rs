@@ -10,9 +10,9 @@ use capsulemap_engine::orbit::matrix::{less_identity, solve};
 use capsulemap_engine::orbit::return_map::{Cycles, jacobian, observed, seeded};
 
 /// Directions of the derivatives: the coordinates of the section, then the parameter.
-const DIRECTIONS: usize = 4;
-/// The place of the parameter among them.
-const FREE: usize = 3;
+const DIRECTIONS: usize = 5;
+/// The place of the parameter among them, behind that of every section.
+const FREE: usize = 4;
 
 /// The derivatives of the periodic orbit through `section`, whose period is `cycles`, in a parameter; none where the motion
 /// cannot be followed, or where a multiplier is one, so that no orbit goes on there.
@@ -31,9 +31,9 @@ const FREE: usize = 3;
 ///
 /// Where an event falls on another or a surface is only touched, outputs have a corner, and the slopes are those of the
 /// side that the orbit takes.
-pub fn sensitivity<R: Reading>(
+pub fn sensitivity<R: Reading<D>, const D: usize>(
     system: &CapsuleSystem<R>,
-    section: &[f64; 3],
+    section: &[f64; D],
     cycles: Cycles,
     parameter: Parameter,
 ) -> Option<Sensitivity> {
@@ -50,19 +50,19 @@ pub fn sensitivity<R: Reading>(
         it.gradient[FREE] + by_section.sum::<f64>()
     });
     Some(Sensitivity {
-        outputs: outputs.map(|it| it.value).into(),
+        outputs: R::told(&outputs.map(|it| it.value)),
         section_slope: section_slope.into(),
-        slopes: slopes.into(),
+        slopes: R::told(&slopes),
     })
 }
 
 /// The parameters of a capsule, of which the derivatives in one are followed.
-struct Seeded<'s, R: Reading> {
+struct Seeded<'s, R, const D: usize> {
     system: &'s CapsuleSystem<R>,
     free: Parameter,
 }
 
-impl<R: Reading> Seeded<'_, R> {
+impl<R: Reading<D>, const D: usize> Seeded<'_, R, D> {
     fn value(&self, parameter: Parameter) -> Dual<f64, DIRECTIONS> {
         let value = self.system.value(parameter);
         if parameter == self.free { Dual::variable(value, FREE) } else { Dual::constant(value) }

@@ -14,7 +14,7 @@ use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::shape::{Form, Shape};
 use super::state::State;
-use super::system::{AsPrinted, CapsuleSystem, Filippov, General, Reading};
+use super::system::{AsPrinted, CapsuleSystem, Filippov, General, OverFolds, Reading};
 use crate::description::{self, Parameters};
 use crate::face::{self, engine_case};
 use crate::motion::{Case, Orbit};
@@ -44,13 +44,18 @@ pub fn settle_case(case: &Case, protocol: &Protocol) -> Orbit {
         Form::Filippov => settle_as::<Filippov>(case, protocol),
         Form::AsPrinted => settle_as::<AsPrinted>(case, protocol),
         Form::General => settle_as::<General>(case, protocol),
+        Form::OverFolds => settle_of::<OverFolds, 4>(case, protocol),
     }
 }
 
 /// Follows a capsule, its friction read as `R` says, as [`settle_case`] does.
 pub fn settle_as<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
-    let orbit = orbit::settle(&case.read::<R>(), protocol);
-    orbit_of::<R>(orbit, case, protocol)
+    settle_of::<R, 3>(case, protocol)
+}
+
+fn settle_of<R: Reading<D>, const D: usize>(case: &Case, protocol: &Protocol) -> Orbit {
+    let orbit = orbit::settle(&engine_case::<CapsuleSystem<R>, D>(case), protocol);
+    face::orbit_of::<CapsuleSystem<R>, D>(orbit, case, protocol)
 }
 
 /// What each of the cases settles to, in their order; see [`orbit::settle_all`].
@@ -58,14 +63,16 @@ pub fn settle_as<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
 /// # Panics
 /// Where the processor does not have the instructions that `machine` asks for.
 pub fn settle_all(cases: &[Case], protocol: &Protocol, machine: Machine) -> Vec<Orbit> {
-    let filippov = settle_read::<Filippov>(cases, Form::Filippov, protocol, machine);
-    let printed = settle_read::<AsPrinted>(cases, Form::AsPrinted, protocol, machine);
-    let general = settle_read::<General>(cases, Form::General, protocol, machine);
-    let mut of_forms = [filippov, printed, general].map(Vec::into_iter);
+    let filippov = settle_read::<Filippov, 3>(cases, Form::Filippov, protocol, machine);
+    let printed = settle_read::<AsPrinted, 3>(cases, Form::AsPrinted, protocol, machine);
+    let general = settle_read::<General, 3>(cases, Form::General, protocol, machine);
+    let over_folds = settle_read::<OverFolds, 4>(cases, Form::OverFolds, protocol, machine);
+    let mut of_forms = [filippov, printed, general, over_folds].map(Vec::into_iter);
     let orbits = cases.iter().map(|case| match case.parameters.form() {
         Form::Filippov => of_forms[0].next(),
         Form::AsPrinted => of_forms[1].next(),
         Form::General => of_forms[2].next(),
+        Form::OverFolds => of_forms[3].next(),
     });
     orbits.map(|orbit| orbit.expect("every case is settled")).collect()
 }
@@ -83,16 +90,17 @@ impl CapsuleCase for Case {
 }
 
 /// The orbits of the cases of a form, in their order.
-fn settle_read<R: Reading>(
+fn settle_read<R: Reading<D>, const D: usize>(
     cases: &[Case],
     form: Form,
     protocol: &Protocol,
     machine: Machine,
 ) -> Vec<Orbit> {
     let chosen: Vec<&Case> = cases.iter().filter(|case| case.parameters.form() == form).collect();
-    let read: Vec<_> = chosen.iter().map(|case| case.read::<R>()).collect();
+    let read: Vec<_> = chosen.iter().map(|case| engine_case::<CapsuleSystem<R>, D>(case)).collect();
     let orbits = orbit::settle_all(&read, protocol, machine).into_iter().zip(chosen);
-    orbits.map(|(orbit, case)| orbit_of::<R>(orbit, case, protocol)).collect()
+    let told = |(orbit, case)| face::orbit_of::<CapsuleSystem<R>, D>(orbit, case, protocol);
+    orbits.map(told).collect()
 }
 
 /// A settled case with its outputs, and its history where the protocol asks for it.
@@ -108,8 +116,8 @@ pub fn orbit_of<R: Reading>(
 ///
 /// Beside a velocity that no ground would bring to rest in a lifetime, a section repeats to every digit while the
 /// capsule slows down.
-pub(super) fn is_balanced(
-    orbit: &orbit::Orbit<State<f64>, Account<f64>, 3>,
+pub(super) fn is_balanced<const D: usize>(
+    orbit: &orbit::Orbit<State<f64>, Account<f64>, D>,
     parameters: &Parameters,
     tolerance: f64,
 ) -> bool {
@@ -122,11 +130,12 @@ pub(super) fn is_balanced(
 /// The mean friction force less the mean of the other forces along the ground, relative to the forces that act.
 fn momentum_residual(account: &Account<f64>, parameters: &Parameters) -> f64 {
     let friction = account.friction_impulse / account.time;
-    if parameters.form() != Form::General {
+    if !parameters.form().is_of_family() {
         return ratio(friction, parameters[Parameter::Pd] + parameters.break_away());
     }
     let Balance { mean, along, largest_drive, break_away, .. } = Balance::of(parameters);
-    ratio(friction - mean, largest_drive + break_away + along.abs())
+    let others = mean + account.beside.fold_impulse / account.time;
+    ratio(friction - others, largest_drive + break_away + along.abs())
 }
 
 /// The work against gravity and load, as far as the capsule has advanced [J].
@@ -143,8 +152,8 @@ fn ratio(part: f64, whole: f64) -> f64 {
 ///
 /// `recurrence` is how closely the section had to repeat, relative to the motion: a progression within a
 /// hundred times that is rounding.
-pub fn outputs(
-    orbit: &orbit::Orbit<State<f64>, Account<f64>, 3>,
+pub fn outputs<const D: usize>(
+    orbit: &orbit::Orbit<State<f64>, Account<f64>, D>,
     parameters: &Parameters,
     recurrence: f64,
 ) -> Outputs {
@@ -164,6 +173,10 @@ pub fn outputs(
     outputs[Output::ExcludedPeriod] = orbit.excluded;
     outputs[Output::SectionResidual] = orbit.residual;
     mean_errors::add(&mut outputs, orbit, parameters);
+    if parameters.shape().over_folds && orbit.outcome == Outcome::Periodic {
+        let advance = orbit.observed.advance / cycles * orbit.period as f64;
+        outputs[Output::FoldsPerPeriod] = (advance / parameters[Parameter::FoldSpacing]).round();
+    }
     outputs
 }
 
@@ -175,7 +188,7 @@ fn summed(account: &Account<f64>, parameters: &Parameters, moves: bool, cycles: 
     let mut losses = friction_loss + damper_loss;
     // Without a drive only losses are left to measure against.
     let mut exchanged = work_absolute.max(losses);
-    if parameters.form() == Form::General {
+    if parameters.form().is_of_family() {
         let lifting = lifting_work(account, |it| parameters[it], parameters.shape());
         losses += account.beside.contact_loss + lifting;
         exchanged = work_absolute.max(losses).max(lifting.abs());

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use capsulemap_engine::lane::Lane;
 
+use super::over_folds::CAPSULE_OVER_FOLDS;
 use super::parameter::Parameter;
 use super::resistance::{Resistance, Switching};
 use crate::description::Parameters;
@@ -168,6 +169,15 @@ pub enum Form {
     AsPrinted,
     /// Those of the family, friction set-valued at rest.
     General,
+    /// The same over folds.
+    OverFolds,
+}
+
+impl Form {
+    /// Whether it is that of a member of the family, on any ground.
+    pub fn is_of_family(self) -> bool {
+        matches!(self, Form::General | Form::OverFolds)
+    }
 }
 
 /// What of a capsule's equations is the same whatever the values of its parameters.
@@ -181,6 +191,8 @@ pub struct Shape {
     pub reaction: Reaction,
     /// When the mass leaves a stop that damps.
     pub release: Release,
+    /// Whether there are folds across the way.
+    pub over_folds: bool,
     /// The parameters that are given, of those that the equations have only then, as bits by their order.
     given: u64,
 }
@@ -195,6 +207,7 @@ impl Shape {
             drive: DriveKind::NAMES[drive].1,
             reaction: Reaction::NAMES[reaction].1,
             release: Release::NAMES[release].1,
+            over_folds: *parameters.model() == CAPSULE_OVER_FOLDS,
             given: parameters.given_places(),
         }
     }
@@ -326,7 +339,7 @@ impl Shape {
 
     /// Whether the equations have anything that the paper's have not, in any reading of its switching.
     pub fn is_member(self) -> bool {
-        self.without_drag().form(Switching::Filippov) == Form::General
+        self.without_drag().form(Switching::Filippov) != Form::Filippov
     }
 
     /// By which equations the capsule moves, its friction read so.
@@ -342,6 +355,7 @@ impl Shape {
             || self.reaction != Reaction::None
             || Parameter::ALL.iter().any(is_part);
         match switching {
+            _ if self.over_folds => Form::OverFolds,
             Switching::AsPrinted => Form::AsPrinted,
             Switching::Filippov if is_general => Form::General,
             Switching::Filippov => Form::Filippov,

@@ -47,6 +47,10 @@ pub(super) const fn parameter_shown(parameter: Parameter) -> Option<Shown> {
         Parameter::MuDForward => ("Dynamic friction forward", "*μ*_{d}^{+}"),
         Parameter::MuDBackward => ("Dynamic friction backward", "*μ*_{d}^{−}"),
         Parameter::Stribeck => ("Rise of friction towards rest", "*ν*"),
+        Parameter::FoldSpacing => ("Spacing of folds", "*Λ*"),
+        Parameter::FoldFriction => ("Friction of folds", ""),
+        Parameter::FoldForce => ("Force of folds", ""),
+        Parameter::FoldSharpness => ("Sharpness of folds", ""),
         Parameter::K1Cubic
         | Parameter::K2Cubic
         | Parameter::C1
@@ -109,6 +113,7 @@ pub(super) const fn output_shown(output: Output) -> Option<Shown> {
         Output::RearImpactsPerCycle => words("Rear impacts per cycle", ""),
         Output::RearPeakContactForce => words("Peak force of the rear stop", "N"),
         Output::RearGrazingMargin => shown("Rear grazing margin", "", "mm", 1e3),
+        Output::FoldsPerPeriod => words("Folds per period", ""),
         Output::DamperLossError => shown("Error of the damper loss per cycle", "", "mJ", 1e3),
     }
 }

@@ -1,12 +1,14 @@
 //! What the capsule says of its motion over time: signals, forces among them, impacts, events and sums.
 
+use super::description::CAPSULE;
 use super::forces::Forces;
 use super::output::Output;
+use super::over_folds::CAPSULE_OVER_FOLDS;
 use super::parameters::CapsuleParameters as _;
 use super::quantities::{
-    HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_REAR_CONTACT, HISTORY_X1,
-    HISTORY_X2, HISTORY_Y1, HISTORY_Y2, IMPACT_PHASE, IMPACT_VELOCITY, IMPACT_Y1, IMPACT_Y2,
-    RELATIVE_VELOCITY, VELOCITIES,
+    HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FOLDS, HISTORY_FRICTION, HISTORY_PLACE, HISTORY_R,
+    HISTORY_REAR_CONTACT, HISTORY_X1, HISTORY_X2, HISTORY_Y1, HISTORY_Y2, IMPACT_PHASE,
+    IMPACT_VELOCITY, IMPACT_Y1, IMPACT_Y2, RELATIVE_VELOCITY, VELOCITIES,
 };
 use super::state::{CapsuleState as _, State};
 use crate::description::{
@@ -21,7 +23,7 @@ const IMPACT: &[Quantity] = &[IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, IMPACT_VELOCIT
 const HISTORIES: &[Quantity] = &[HISTORY_R, HISTORY_Y1, HISTORY_X2, HISTORY_Y2, HISTORY_DRIVE];
 
 /// What a motion has at each time.
-const SIGNALS: &[Signal] = &[
+const SIGNALS: [Signal; 10] = [
     Signal::of_state(HISTORY_X1, SignalKind::Drifting, |it| {
         let State { r, x2, .. } = it.capsule();
         x2 + r
@@ -56,6 +58,28 @@ const SIGNALS: &[Signal] = &[
     },
 ];
 
+/// What is kept of a motion over folds at each time.
+const HISTORIES_OVER_FOLDS: &[Quantity] =
+    &[HISTORY_R, HISTORY_Y1, HISTORY_X2, HISTORY_Y2, HISTORY_PLACE, HISTORY_DRIVE];
+
+/// What a motion over folds has at each time.
+const SIGNALS_OVER_FOLDS: [Signal; SIGNALS.len() + 2] = {
+    let place = Signal::kept(HISTORY_PLACE, SignalKind::Repeating, 4);
+    let mut all = [place; SIGNALS.len() + 2];
+    let mut index = 0;
+    while index < SIGNALS.len() {
+        all[index] = SIGNALS[index];
+        index += 1;
+    }
+    all[DRIVE] = Signal::kept(HISTORY_DRIVE, SignalKind::Force, 5);
+    all[SIGNALS.len()] =
+        Signal::force(HISTORY_FOLDS, |parameters, it, kept| forces(parameters, it, kept).folds);
+    all
+};
+
+/// The place of the drive among the signals.
+const DRIVE: usize = 6;
+
 /// The forces in a state, with the force of the drive as the first that is kept beside its coordinates.
 fn forces(parameters: &Parameters, state: &description::State, kept: &[f64]) -> Forces {
     Forces::of(parameters, &state.capsule(), kept[0])
@@ -64,7 +88,7 @@ fn forces(parameters: &Parameters, state: &description::State, kept: &[f64]) -> 
 /// What the capsule says of its motion over time.
 pub(super) const MOTION: MotionDescription = MotionDescription {
     histories: HISTORIES,
-    signals: SIGNALS,
+    signals: &SIGNALS,
     groups: &[SignalGroup { quantity: VELOCITIES, signals: &[HISTORY_Y1.name, HISTORY_Y2.name] }],
     panels: &[HISTORY_X2.name, HISTORY_R.name, VELOCITIES.name],
     charts: &[
@@ -85,7 +109,7 @@ pub(super) const MOTION: MotionDescription = MotionDescription {
     ],
     portrait: Some([HISTORY_R.name, RELATIVE_VELOCITY.name]),
     impact: IMPACT,
-    at_impact: Some(|r, told| State { r, y1: told[1], x2: 0.0, y2: told[2] }.into()),
+    at_impact: Some(|r, told| description::State::new(&CAPSULE, &[r, told[1], 0.0, told[2]])),
     events: &[
         "contact-closed",
         "contact-opened",
@@ -107,4 +131,31 @@ pub(super) const MOTION: MotionDescription = MotionDescription {
         Output::DamperLoss.name(),
     ],
     counts: &["impacts"],
+};
+
+/// What a capsule over folds says of its motion over time.
+pub(super) const MOTION_OVER_FOLDS: MotionDescription = MotionDescription {
+    histories: HISTORIES_OVER_FOLDS,
+    signals: &SIGNALS_OVER_FOLDS,
+    panels: &[HISTORY_X2.name, HISTORY_PLACE.name, VELOCITIES.name],
+    charts: &[
+        MOTION.charts[0],
+        Chart { title: "Place between folds", signals: &[HISTORY_PLACE.name] },
+        MOTION.charts[1],
+        Chart {
+            title: "Force",
+            signals: &[
+                HISTORY_DRIVE.name,
+                HISTORY_CONTACT.name,
+                HISTORY_FRICTION.name,
+                HISTORY_FOLDS.name,
+                HISTORY_REAR_CONTACT.name,
+            ],
+        },
+    ],
+    // Impacts are not told with the place where they happen.
+    at_impact: Some(|r, told| {
+        description::State::new(&CAPSULE_OVER_FOLDS, &[r, told[1], 0.0, told[2], f64::NAN])
+    }),
+    ..MOTION
 };

@@ -7,7 +7,7 @@ use super::energies::Energies;
 use super::parameters::CapsuleParameters as _;
 use super::shape::Form;
 use super::state::{EventKind, State};
-use super::system::{AsPrinted, CapsuleSystem, Filippov, General, Reading};
+use super::system::{AsPrinted, CapsuleSystem, Filippov, General, OverFolds, Reading};
 use crate::description::{self, Parameters};
 use crate::face::{Followed, followed};
 use crate::motion::{Case, SimulationSize};
@@ -72,18 +72,23 @@ pub fn simulate(
 /// there. Times and sums are counted from the start.
 pub fn simulate_case(case: &Case, cycles: u64, tolerance: f64) -> Simulation {
     match case.parameters.form() {
-        Form::Filippov => simulate_as::<Filippov>(case, cycles, tolerance),
-        Form::AsPrinted => simulate_as::<AsPrinted>(case, cycles, tolerance),
-        Form::General => simulate_as::<General>(case, cycles, tolerance),
+        Form::Filippov => simulate_as::<Filippov, 3>(case, cycles, tolerance),
+        Form::AsPrinted => simulate_as::<AsPrinted, 3>(case, cycles, tolerance),
+        Form::General => simulate_as::<General, 3>(case, cycles, tolerance),
+        Form::OverFolds => simulate_as::<OverFolds, 4>(case, cycles, tolerance),
     }
 }
 
-fn simulate_as<R: Reading>(case: &Case, cycles: u64, tolerance: f64) -> Simulation {
+fn simulate_as<R: Reading<D>, const D: usize>(
+    case: &Case,
+    cycles: u64,
+    tolerance: f64,
+) -> Simulation {
     let most = SimulationSize { cycles, events: usize::MAX };
     let Followed { section, events, failure } =
-        followed::<CapsuleSystem<R>, 3>(case, most, tolerance);
+        followed::<CapsuleSystem<R>, D>(case, most, tolerance);
     let section = section.into_iter().map(|it| {
-        let State { r, y1, x2, y2 } = it.state;
+        let State { r, y1, x2, y2, .. } = it.state;
         let (energies, impacts) = (it.observed.energies, it.observed.impacts as u64);
         Sample { n: it.cycle, t: it.time, r, y1, x2, y2, energies, impacts }
     });

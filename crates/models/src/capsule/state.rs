@@ -20,9 +20,12 @@ pub struct State<L> {
     pub x2: L,
     /// Velocity of the capsule [m/s].
     pub y2: L,
+    /// Place of the capsule between two folds, in spacings from a top on [-]; zero on even ground.
+    #[serde(skip)]
+    pub place: L,
 }
 
-side_by_side!(State { r, y1, x2, y2 });
+side_by_side!(State { r, y1, x2, y2, place });
 
 /// What a state of the capsule is, by the names of its coordinates.
 pub trait CapsuleState {
@@ -37,7 +40,7 @@ impl CapsuleState for description::State {
 }
 
 impl State<f64> {
-    /// r, y1, x2 and y2.
+    /// r, y1, x2 and y2, which are all on even ground.
     pub fn coordinates(&self) -> [f64; 4] {
         [self.r, self.y1, self.x2, self.y2]
     }
@@ -45,16 +48,16 @@ impl State<f64> {
 
 impl fmt::Display for State<f64> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let State { r, y1, x2, y2 } = self;
+        let State { r, y1, x2, y2, .. } = self;
         write!(f, "r = {r} m, y1 = {y1} m/s, x2 = {x2} m, y2 = {y2} m/s")
     }
 }
 
 impl<L: Lane> State<L> {
-    /// The state with these r, y1, x2 and y2.
+    /// The state with these r, y1, x2 and y2, on even ground.
     #[inline(always)]
     pub fn of([r, y1, x2, y2]: [L; 4]) -> Self {
-        State { r, y1, x2, y2 }
+        State { r, y1, x2, y2, place: L::splat(0.0) }
     }
 
     /// The state of each lane.
@@ -64,6 +67,7 @@ impl<L: Lane> State<L> {
             y1: L::from_fn(|i| state(i).y1),
             x2: L::from_fn(|i| state(i).x2),
             y2: L::from_fn(|i| state(i).y2),
+            place: L::from_fn(|i| state(i).place),
         }
     }
 }
@@ -172,18 +176,18 @@ impl<L: Lane> Jet<L> {
     /// The state `h` after the start of the step.
     #[inline(always)]
     pub fn state(&self, h: L) -> State<L> {
-        State {
-            r: series::value(&self.r, h),
-            y1: series::value(&self.y1, h),
-            x2: series::value(&self.x2, h),
-            y2: series::value(&self.y2, h),
-        }
+        State::of([
+            series::value(&self.r, h),
+            series::value(&self.y1, h),
+            series::value(&self.x2, h),
+            series::value(&self.y2, h),
+        ])
     }
 
     /// The state at the start of the step.
     #[inline(always)]
     pub fn beginning(&self) -> State<L> {
-        State { r: self.r[0], y1: self.y1[0], x2: self.x2[0], y2: self.y2[0] }
+        State::of([self.r[0], self.y1[0], self.x2[0], self.y2[0]])
     }
 
     /// The state `h` after the start of the step, and the slopes of the series there; side by side, as they

@@ -7,27 +7,30 @@ use capsulemap_engine::flow::{Field, Metric, Stroboscopic, Switched, System};
 use capsulemap_engine::lane::{Lane, SideBySide};
 
 use super::account::Account;
+use super::description::CAPSULE;
 use super::filippov::{self, Capsule};
 use super::general::{GeneralCapsule, GeneralMode};
 use super::locomotion::Locomotion;
+use super::output::Outputs;
+use super::over_folds::CAPSULE_OVER_FOLDS;
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::printed::PrintedCapsule;
 use super::regime::PrintedMode;
 use super::shape::{DriveKind, Shape};
 use super::state::{EventKind, State};
-use crate::description::{Parameters, Presence};
+use crate::description::{self, Description, Parameters, Presence};
 
-/// A form of the equations, with a reading of the switching between stick and slip.
-pub trait Reading: Copy + Debug + PartialEq + Send + Sync + 'static {
+/// A form of the equations, with a reading of the switching between stick and slip, seen at `D` coordinates of its section.
+pub trait Reading<const D: usize = 3>: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// Which field acts.
     type Mode<L: Lane>: Copy + Default + Send + SideBySide<One = Self::Mode<f64>>;
     /// The capsule in `f64`.
-    type Single: Locomotion<f64, Mode = Self::Mode<f64>> + Field + Stroboscopic<f64, 3> + Send;
+    type Single: Locomotion<f64, Mode = Self::Mode<f64>> + Field + Stroboscopic<f64, D> + Send;
     /// The capsule in numbers of any kind.
     type In<L: Lane>: Stroboscopic<
             L,
-            3,
+            D,
             State = State<L>,
             Mode = Self::Mode<L>,
             Jet: SideBySide<One = <Self::Single as Switched<f64>>::Jet>,
@@ -35,6 +38,17 @@ pub trait Reading: Copy + Debug + PartialEq + Send + Sync + 'static {
         > + Locomotion<L>
         + SideBySide<One = Self::Single>;
 
+    /// What such a capsule says of itself; the usual one but for other ground.
+    fn description() -> &'static Description {
+        &CAPSULE
+    }
+    /// Outputs as it tells of them.
+    fn told(outputs: &Outputs) -> description::Outputs {
+        let model = Self::description();
+        description::Outputs::new(model, &outputs.values()[..model.outputs.len()])
+    }
+    /// How far two section points are apart.
+    fn metric(parameters: &Parameters) -> Metric<D>;
     /// Whether capsules of these shapes may be followed side by side; those of the paper where they have one law of resistance, and
     /// their frequency told in one way.
     fn are_alike(one: Shape, other: Shape) -> bool {
@@ -55,6 +69,10 @@ pub struct Filippov;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct General;
 
+/// The same over folds, whose place between two folds is a coordinate of its section.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OverFolds;
+
 /// Eq. (1) of the paper to the letter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AsPrinted;
@@ -63,6 +81,10 @@ impl Reading for Filippov {
     type Mode<L: Lane> = filippov::Mode<L>;
     type Single = Capsule<f64>;
     type In<L: Lane> = Capsule<L>;
+
+    fn metric(parameters: &Parameters) -> Metric<3> {
+        parameters.metric()
+    }
 
     fn single(parameters: &Parameters, phase: f64) -> Capsule<f64> {
         Capsule::single(parameters, phase)
@@ -75,14 +97,18 @@ impl Reading for Filippov {
 
 impl Reading for General {
     type Mode<L: Lane> = GeneralMode<L>;
-    type Single = GeneralCapsule<f64>;
-    type In<L: Lane> = GeneralCapsule<L>;
+    type Single = GeneralCapsule<f64, false>;
+    type In<L: Lane> = GeneralCapsule<L, false>;
 
     fn are_alike(one: Shape, other: Shape) -> bool {
         one == other
     }
 
-    fn single(parameters: &Parameters, phase: f64) -> GeneralCapsule<f64> {
+    fn metric(parameters: &Parameters) -> Metric<3> {
+        parameters.metric()
+    }
+
+    fn single(parameters: &Parameters, phase: f64) -> GeneralCapsule<f64, false> {
         GeneralCapsule::new(|parameter| parameters[parameter], parameters.shape(), phase)
     }
 
@@ -90,7 +116,40 @@ impl Reading for General {
         of: impl Fn(Parameter) -> L,
         shape: Shape,
         phase: f64,
-    ) -> GeneralCapsule<L> {
+    ) -> GeneralCapsule<L, false> {
+        GeneralCapsule::new(of, shape, phase)
+    }
+}
+
+impl Reading<4> for OverFolds {
+    type Mode<L: Lane> = GeneralMode<L>;
+    type Single = GeneralCapsule<f64, true>;
+    type In<L: Lane> = GeneralCapsule<L, true>;
+
+    fn description() -> &'static Description {
+        &CAPSULE_OVER_FOLDS
+    }
+
+    /// The place between two folds counts as the displacement from one fold to the next.
+    fn metric(parameters: &Parameters) -> Metric<4> {
+        let omega = parameters.frequency();
+        let of_place = omega * parameters[Parameter::FoldSpacing];
+        Metric { scales: [omega, 1.0, 1.0, of_place], repeats: [false, false, false, true] }
+    }
+
+    fn are_alike(one: Shape, other: Shape) -> bool {
+        one == other
+    }
+
+    fn single(parameters: &Parameters, phase: f64) -> GeneralCapsule<f64, true> {
+        GeneralCapsule::new(|parameter| parameters[parameter], parameters.shape(), phase)
+    }
+
+    fn capsule<L: Lane>(
+        of: impl Fn(Parameter) -> L,
+        shape: Shape,
+        phase: f64,
+    ) -> GeneralCapsule<L, true> {
         GeneralCapsule::new(of, shape, phase)
     }
 }
@@ -99,6 +158,10 @@ impl Reading for AsPrinted {
     type Mode<L: Lane> = PrintedMode<L>;
     type Single = PrintedCapsule<f64>;
     type In<L: Lane> = PrintedCapsule<L>;
+
+    fn metric(parameters: &Parameters) -> Metric<3> {
+        parameters.metric()
+    }
 
     fn single(parameters: &Parameters, phase: f64) -> PrintedCapsule<f64> {
         PrintedCapsule::single(parameters, phase)
@@ -123,14 +186,14 @@ pub struct CapsuleSystem<R> {
     reading: PhantomData<R>,
 }
 
-impl<R: Reading> CapsuleSystem<R> {
+impl<R> CapsuleSystem<R> {
     /// The capsule with these parameters, whose drive is at `phase` at the section [rad].
     pub fn new(parameters: Parameters, phase: f64) -> Self {
         CapsuleSystem { parameters, phase, reading: PhantomData }
     }
 }
 
-impl<R: Reading> System<3> for CapsuleSystem<R> {
+impl<R: Reading<D>, const D: usize> System<D> for CapsuleSystem<R> {
     type Parameter = Parameter;
     type Event = EventKind;
     type State<L: Lane> = State<L>;
@@ -166,8 +229,8 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
         other
     }
 
-    fn metric(&self) -> Metric<3> {
-        self.parameters.metric()
+    fn metric(&self) -> Metric<D> {
+        R::metric(&self.parameters)
     }
 
     fn observer(&self, points: usize) -> Account<f64> {

@@ -30,6 +30,8 @@ pub use state::{CoordinateDescription, State, StateCoordinate};
 pub struct Description {
     /// Its name in studies and files.
     pub name: &'static str,
+    /// The model whose parameters, choices, coordinates and outputs it has as its first ones, if there is one: they are the same.
+    pub extends: Option<&'static Description>,
     /// Its parameters, in the order of tables and files.
     pub parameters: &'static [ParameterDescription],
     /// What is chosen beside the values of parameters, as the law of a force.
@@ -76,6 +78,11 @@ impl Debug for Description {
 }
 
 impl Description {
+    /// Whether what one of two models has at a place is what the other has there, as they are one model or one extends the other.
+    pub(crate) fn shares_with(&'static self, other: &'static Description) -> bool {
+        self == other || self.extends == Some(other) || other.extends == Some(self)
+    }
+
     /// Every parameter, in the order of tables and files.
     pub fn parameters(&'static self) -> impl DoubleEndedIterator<Item = Parameter> + Clone {
         (0..self.parameters.len()).map(move |index| Parameter::of(self, index))

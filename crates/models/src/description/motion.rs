@@ -69,6 +69,8 @@ pub enum SignalKind {
     Coordinate,
     /// Where it is, and goes on from cycle to cycle.
     Drifting,
+    /// Where it is on what repeats, from 0 to 1, after which it begins anew.
+    Repeating,
     /// A force.
     Force,
 }

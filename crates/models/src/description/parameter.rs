@@ -36,11 +36,20 @@ pub enum Presence {
 }
 
 /// A parameter of a model.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 pub struct Parameter {
     model: &'static Description,
     index: usize,
 }
+
+/// A parameter that a model has from another is the same.
+impl PartialEq for Parameter {
+    fn eq(&self, other: &Self) -> bool {
+        self.index == other.index && self.model.shares_with(other.model)
+    }
+}
+
+impl Eq for Parameter {}
 
 /// As fingerprints of studies have it.
 impl Debug for Parameter {

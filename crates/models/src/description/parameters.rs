@@ -65,6 +65,20 @@ impl Parameters {
         Parameters { model, values, chosen: vec![0; model.choices.len()], given: 0 }
     }
 
+    /// The same as those of a model that extends theirs, whose own are at their defaults.
+    ///
+    /// # Panics
+    /// Where it extends another model.
+    pub fn of_extension(&self, model: &'static Description) -> Parameters {
+        let (own, of) = (self.model.name, model.name);
+        assert!(model.extends == Some(self.model), "{of} does not extend {own}");
+        let mut parameters = Parameters::of(model);
+        parameters.values[..self.values.len()].copy_from_slice(&self.values);
+        parameters.chosen.clone_from(&self.chosen);
+        parameters.given = self.given;
+        parameters
+    }
+
     /// The model whose parameters they are.
     pub fn model(&self) -> &'static Description {
         self.model
@@ -189,6 +203,7 @@ impl<P: Into<Parameter>> IndexMut<P> for Parameters {
 
 /// The place of a parameter of a model.
 fn place(model: &'static Description, parameter: Parameter) -> usize {
-    assert!(parameter.model() == model, "{} is no parameter of {}", parameter.symbol(), model.name);
+    let is_its = parameter.model().shares_with(model) && parameter.index() < model.parameters.len();
+    assert!(is_its, "{} is no parameter of {}", parameter.symbol(), model.name);
     parameter.index()
 }

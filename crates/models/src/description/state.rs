@@ -18,11 +18,20 @@ pub struct CoordinateDescription {
 }
 
 /// A coordinate of the state of a model.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 pub struct StateCoordinate {
     model: &'static Description,
     index: usize,
 }
+
+/// A coordinate that a model has from another is the same.
+impl PartialEq for StateCoordinate {
+    fn eq(&self, other: &Self) -> bool {
+        self.index == other.index && self.model.shares_with(other.model)
+    }
+}
+
+impl Eq for StateCoordinate {}
 
 /// As fingerprints of studies have it.
 impl Debug for StateCoordinate {
@@ -157,14 +166,14 @@ impl State {
 impl Index<StateCoordinate> for State {
     type Output = f64;
     fn index(&self, coordinate: StateCoordinate) -> &f64 {
-        assert!(coordinate.model == self.model, "a coordinate of {}", self.model.name);
+        assert!(coordinate.model.shares_with(self.model), "a coordinate of {}", self.model.name);
         &self.values[coordinate.index]
     }
 }
 
 impl IndexMut<StateCoordinate> for State {
     fn index_mut(&mut self, coordinate: StateCoordinate) -> &mut f64 {
-        assert!(coordinate.model == self.model, "a coordinate of {}", self.model.name);
+        assert!(coordinate.model.shares_with(self.model), "a coordinate of {}", self.model.name);
         &mut self.values[coordinate.index]
     }
 }

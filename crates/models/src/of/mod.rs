@@ -20,7 +20,7 @@ use capsulemap_engine::orbit::passage::{Integrator, OneByOne};
 use capsulemap_engine::orbit::return_map::{Cycles, append_points, observed};
 use capsulemap_engine::orbit::{Batch, KnownOrbits, Machine, Protocol, Underway, settle_all};
 
-use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, General};
+use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, General, OverFolds};
 use crate::description::{Description, Outputs, Parameter, Parameters, Section};
 use crate::face::{self, Face, engine_case, system};
 use crate::model::{
@@ -55,6 +55,7 @@ impl<M: Face<D>, const D: usize> Debug for Of<M, D> {
 static FILIPPOV: Of<CapsuleSystem<Filippov>, 3> = Of::model();
 static AS_PRINTED: Of<CapsuleSystem<AsPrinted>, 3> = Of::model();
 static GENERAL: Of<CapsuleSystem<General>, 3> = Of::model();
+static OVER_FOLDS: Of<CapsuleSystem<OverFolds>, 4> = Of::model();
 
 /// Section points as the engine has them.
 fn arrays<const D: usize>(points: &[Section]) -> Vec<[f64; D]> {

@@ -5,12 +5,16 @@ use std::sync::{PoisonError, RwLock};
 
 use capsulemap_engine::orbit::Protocol;
 
-use super::{AS_PRINTED, FILIPPOV, GENERAL};
+use super::{AS_PRINTED, FILIPPOV, GENERAL, OVER_FOLDS};
 use crate::capsule::description::CAPSULE;
+use crate::capsule::over_folds::CAPSULE_OVER_FOLDS;
 use crate::capsule::{CapsuleParameters as _, Form};
 use crate::description::{Description, Parameters};
 use crate::model::Model;
 use crate::motion::{Case, Orbit};
+
+/// The capsule, by which studies that name no model go, and what it is on other ground.
+const OWN: [&Description; 2] = [&CAPSULE, &CAPSULE_OVER_FOLDS];
 
 /// Those beside the capsule, in the order in which they were registered.
 static OTHERS: RwLock<Vec<&'static dyn Model>> = RwLock::new(Vec::new());
@@ -50,7 +54,7 @@ pub fn register(model: &'static dyn Model) -> Result<(), NotRegistered> {
         return Err(NotRegistered::Unfit(description.name, faults));
     }
     let mut others = OTHERS.write().unwrap_or_else(PoisonError::into_inner);
-    let mut names = others.iter().map(|it| it.description().name).chain([CAPSULE.name]);
+    let mut names = others.iter().map(|it| it.description().name).chain(OWN.map(|it| it.name));
     if names.any(|name| name == description.name) {
         return Err(NotRegistered::NameTaken(description.name));
     }
@@ -61,7 +65,7 @@ pub fn register(model: &'static dyn Model) -> Result<(), NotRegistered> {
 /// The models that studies can name, that of studies which name none first.
 pub fn all_models() -> Vec<&'static Description> {
     let others = OTHERS.read().unwrap_or_else(PoisonError::into_inner);
-    std::iter::once(&CAPSULE).chain(others.iter().map(|it| it.description())).collect()
+    OWN.into_iter().chain(others.iter().map(|it| it.description())).collect()
 }
 
 /// The model of this name, if there is one.
@@ -82,11 +86,12 @@ pub fn default_model() -> &'static Description {
 #[inline(never)]
 pub fn model_of(parameters: &Parameters) -> &'static dyn Model {
     let description = parameters.model();
-    if *description == CAPSULE {
+    if OWN.contains(&description) {
         return match parameters.form() {
             Form::Filippov => &FILIPPOV,
             Form::AsPrinted => &AS_PRINTED,
             Form::General => &GENERAL,
+            Form::OverFolds => &OVER_FOLDS,
         };
     }
     let others = OTHERS.read().unwrap_or_else(PoisonError::into_inner);

@@ -109,6 +109,8 @@ pub enum Allowed {
     Share,
     /// From 0 to 1.
     UpToOne,
+    /// From 0 to 10.
+    UpToTen,
     /// Above -pi/2 and below pi/2, an angle.
     Slope,
 }
@@ -123,6 +125,7 @@ impl Allowed {
                 Allowed::Positive => value > 0.0,
                 Allowed::Share => value > 0.0 && value < 1.0,
                 Allowed::UpToOne => (0.0..=1.0).contains(&value),
+                Allowed::UpToTen => (0.0..=10.0).contains(&value),
                 Allowed::Slope => value.abs() < FRAC_PI_2,
             }
     }
@@ -136,6 +139,7 @@ impl fmt::Display for Allowed {
             Allowed::Positive => "a finite number above zero",
             Allowed::Share => "a number above 0 and below 1",
             Allowed::UpToOne => "a number from 0 to 1",
+            Allowed::UpToTen => "a number from 0 to 10",
             Allowed::Slope => "an angle above -90 deg and below 90 deg",
         })
     }

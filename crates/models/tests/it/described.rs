@@ -2,6 +2,7 @@
 
 use capsulemap_engine::flow::Event as _;
 use capsulemap_models::capsule::description::CAPSULE;
+use capsulemap_models::capsule::over_folds::CAPSULE_OVER_FOLDS;
 use capsulemap_models::capsule::{
     CapsuleParameters as _, EventKind, Forces, Output, Parameter, Parameters, Resistance, State,
     Switching,
@@ -15,6 +16,7 @@ use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
 /// A model of one parameter that is called as one of the capsule is.
 static OTHER: Description = Description {
     name: "other",
+    extends: None,
     parameters: &[ParameterDescription {
         quantity: Quantity { name: "m1", dimension: Dimension::Mass, meaning: "mass", shown: None },
         tag: "M",
@@ -60,6 +62,31 @@ fn the_description_has_every_parameter_and_output_in_its_place() {
     }
 }
 
+/// What a model has from another is the same in both, and what is its own is not in the other.
+#[test]
+fn a_capsule_over_folds_has_all_that_one_on_even_ground_has() {
+    for (own, others) in CAPSULE_OVER_FOLDS.parameters().zip(CAPSULE.parameters()) {
+        assert!(own == others && own.symbol() == others.symbol());
+    }
+    for (own, others) in CAPSULE_OVER_FOLDS.outputs().zip(CAPSULE.outputs()) {
+        assert!(own == others && own.name() == others.name());
+    }
+    let of_folds: Vec<&str> =
+        Parameter::OVER_FOLDS.iter().filter(|it| it.is_of_folds()).map(|it| it.symbol()).collect();
+    assert_eq!(of_folds, ["fold_spacing", "fold_friction", "fold_force", "fold_sharpness"]);
+    assert!(of_folds.iter().all(|it| CAPSULE.parameter(it).is_none()));
+    let mut parameters = Parameters::of(&CAPSULE_OVER_FOLDS);
+    parameters[Parameter::Omega] = 3.0;
+    parameters[Parameter::FoldForce] = 0.2;
+    assert_eq!((parameters[Parameter::Omega], parameters[Parameter::FoldForce]), (3.0, 0.2));
+}
+
+#[test]
+#[should_panic(expected = "fold_force is no parameter of capsule")]
+fn a_capsule_on_even_ground_has_no_parameter_of_folds() {
+    let _ = Parameters::default()[Parameter::FoldForce];
+}
+
 #[test]
 fn each_choice_is_the_law_of_its_name() {
     for (law, &(name, resistance)) in Resistance::NAMES.iter().enumerate() {
@@ -93,9 +120,8 @@ fn a_parameter_of_one_model_is_none_of_another() {
 fn what_is_said_to_have_no_effect_has_none() {
     let speeds = [-1.3, -1e-3, 2e-4, 0.7];
     let felt = |parameters: &Parameters| {
-        let sliding = speeds.map(|y2| {
-            Forces::of(parameters, &State { r: 0.01, y1: 0.2, x2: 0.0, y2 }, 0.0).friction
-        });
+        let sliding =
+            speeds.map(|y2| Forces::of(parameters, &State::of([0.01, 0.2, 0.0, y2]), 0.0).friction);
         (parameters.break_away(), sliding)
     };
     let mut idle = 0;
@@ -131,13 +157,13 @@ fn what_is_said_to_have_no_effect_has_none() {
 
 #[test]
 fn a_state_is_shown_with_its_units_as_the_capsule_shows_it() {
-    let state = State { r: 1.5e-3, y1: -0.25, x2: 4.0, y2: 0.0 };
+    let state = State::of([1.5e-3, -0.25, 4.0, 0.0]);
     assert_eq!(description::State::from(state).to_string(), state.to_string());
 }
 
 #[test]
 fn a_section_point_is_the_list_of_its_coordinates() {
-    let point = description::State::from(State { r: 1.0, y1: 2.0, x2: 3.0, y2: 4.0 }).section();
+    let point = description::State::from(State::of([1.0, 2.0, 3.0, 4.0])).section();
     assert_eq!(
         (point.array(), format!("{point:?}")),
         ([1.0, 2.0, 4.0], "[1.0, 2.0, 4.0]".to_owned())
@@ -148,7 +174,7 @@ fn a_section_point_is_the_list_of_its_coordinates() {
             && point == point.iter().copied().collect::<Section>()
     );
     let at = description::State::at_section(&CAPSULE, &point);
-    assert_eq!(State::from(&at), State { r: 1.0, y1: 2.0, x2: 0.0, y2: 4.0 });
+    assert_eq!(State::from(&at), State::of([1.0, 2.0, 0.0, 4.0]));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use capsulemap_engine::orbit::OrbitOf;
 use capsulemap_models::capsule::description::CAPSULE;
+use capsulemap_models::capsule::over_folds::CAPSULE_OVER_FOLDS;
 use capsulemap_models::capsule::{CapsuleParameters as _, Parameters, Switching};
 use capsulemap_models::description::{
     CoordinateDescription, Description, MotionDescription, Outputs, Parameter,
@@ -42,6 +43,7 @@ const fn coordinate(name: &'static str, start: &'static str) -> CoordinateDescri
 /// Duffing's oscillator with an event that it does not have, and a parameter.
 static WRONG: Description = Description {
     name: "wrong",
+    extends: None,
     parameters: &[parameter("c", 0.1), parameter("p", 0.2), parameter("q", 0.3)],
     choices: &[],
     coordinates: &[coordinate("x", "start_x"), coordinate("v", "start_v")],
@@ -106,10 +108,12 @@ fn a_system_and_its_description_have_the_same_parameters_and_events() {
 }
 
 #[test]
-fn each_reading_of_the_capsule_fits_its_description() {
+fn each_form_of_the_capsule_fits_its_description() {
     for (_, switching) in Switching::NAMES {
         let mut parameters = Parameters::default();
         parameters.switch_by(switching);
         assert_eq!(model_of(&parameters).faults(), Vec::<String>::new());
     }
+    let over_folds = model_of(&Parameters::of(&CAPSULE_OVER_FOLDS));
+    assert_eq!(over_folds.faults(), Vec::<String>::new());
 }

@@ -16,7 +16,7 @@ fn forces_are_those_of_the_model() {
         (Parameter::Vs, 0.1),
     ];
     let parameters = Parameters::with(&values);
-    let at = |r: f64, y1: f64, y2: f64| Forces::of(&parameters, &State { r, y1, x2: 7.0, y2 }, 0.0);
+    let at = |r: f64, y1: f64, y2: f64| Forces::of(&parameters, &State::of([r, y1, 7.0, y2]), 0.0);
     let open = at(5e-4, 0.1, 0.0);
     assert_eq!((open.contact, open.friction), (0.0, open.of_mass));
     assert!((open.of_mass - 0.25).abs() < 1e-15);

@@ -81,6 +81,8 @@ fn side_by_side<L: Lane, M: Subject<D>, const D: usize>(cases: &[Case<M, D>]) ->
     let goes_on = |course: &Course<D>| course.points.len() < CYCLES && course.failure.is_none();
     while found.iter().any(goes_on) {
         motion.step(&system, periods, TOLERANCE, &mut step);
+        let mut begun = motion;
+        begun.begin_cycle(&system, step.arrives);
         for (lane, course) in found.iter_mut().enumerate().filter(|(_, it)| goes_on(it)) {
             steps[lane] += 1;
             let event = step.event.lane(lane);
@@ -92,13 +94,13 @@ fn side_by_side<L: Lane, M: Subject<D>, const D: usize>(cases: &[Case<M, D>]) ->
                 course.failure = Some(breakdown.into());
             } else if step.arrives.lane(lane) {
                 steps[lane] = 0;
-                let state = motion.state.lane(lane);
+                let state = begun.state.lane(lane);
                 course.points.push(M::Single::point(&state).map(f64::to_bits));
             } else if steps[lane] >= STEPS_PER_CYCLE {
                 course.failure = Some(Reason::TooManySteps);
             }
         }
-        motion.begin_cycle(&system, step.arrives);
+        motion = begun;
     }
     found
 }

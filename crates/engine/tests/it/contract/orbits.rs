@@ -118,7 +118,7 @@ impl<M: Subject<D>, const D: usize> Certified<'_, M, D> {
         let [still, moved] =
             [self.point, self.pushed(push)].map(|point| followed(self.system, point, span));
         let differences = moved.iter().zip(&still);
-        differences.map(|(a, b)| std::array::from_fn(|i| a[i] - b[i])).collect()
+        differences.map(|(a, b)| self.metric.difference(a, b)).collect()
     }
 
     /// How far the answer to each of the pushes is from one that the multipliers allow: after Cayley and Hamilton
@@ -137,8 +137,8 @@ impl<M: Subject<D>, const D: usize> Certified<'_, M, D> {
                     terms.map(|(coefficient, answer)| coefficient * answer[i]).sum()
                 });
                 // A push that grows before it dies is told as closely as it is large.
-                let sizes = answers.iter().map(|answer| self.metric.size(answer));
-                self.metric.size(&sum) / sizes.fold(0.0, f64::max)
+                let sizes = answers.iter().map(|answer| self.metric.length(answer));
+                self.metric.length(&sum) / sizes.fold(0.0, f64::max)
             });
             misses.fold(f64::INFINITY, f64::min)
         })
@@ -161,7 +161,7 @@ impl<M: Subject<D>, const D: usize> Certified<'_, M, D> {
         // friction alone holds at the section.
         let mut rates = [(); 3].map(|()| {
             let answers = self.answers(&self.direction(random, 1e-5), last as usize);
-            let sizes = [settled, last].map(|n| self.metric.size(&answers[n as usize]));
+            let sizes = [settled, last].map(|n| self.metric.length(&answers[n as usize]));
             (sizes[1] / sizes[0]).powf(1.0 / (last - settled))
         });
         rates.sort_by(f64::total_cmp);

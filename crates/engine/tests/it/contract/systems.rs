@@ -1,10 +1,12 @@
 //! The systems that the contract is checked on, and the contract of each.
 
 use capsulemap_engine::orbit::{Case, Outcome, Protocol, settle};
+use capsulemap_models::capsule::general::GeneralMode;
 use capsulemap_models::capsule::{
     AsPrinted, CapsuleCase as _, CapsuleParameters as _, CapsuleSystem, Filippov, General,
-    Parameter, Parameters, Reading, Resistance, State,
+    OverFolds, Parameter, Parameters, Reading, Resistance, State,
 };
+use capsulemap_models::face::engine_case;
 use capsulemap_models::motion;
 
 use super::super::directions::DIRECTIONS;
@@ -132,6 +134,35 @@ impl Drawn for General {
             + drive
             + given(Parameter::Load)
             + p.normal_load()
+    }
+}
+
+/// Members over folds.
+impl Subject<4> for CapsuleSystem<OverFolds> {
+    fn directions() -> Vec<Parameter> {
+        Parameter::OVER_FOLDS.to_vec()
+    }
+
+    fn draws(count: usize, seed: u64) -> Vec<Case<Self, 4>> {
+        let (_, law) = Resistance::NAMES[seed as usize % Resistance::NAMES.len()];
+        let cases = draws::over_folds(draws::alike(count, seed, law), seed);
+        cases.iter().map(engine_case).collect()
+    }
+
+    fn rich_draws(count: usize, seed: u64) -> Vec<Case<Self, 4>> {
+        let cases = draws::over_folds(draws::rich_members(8 * count, seed), seed);
+        cases.iter().map(engine_case).collect()
+    }
+
+    /// Nothing is behind a rigid stop.
+    fn may_start(&self, [r, ..]: &[f64; 4]) -> bool {
+        !self.parameters.shape().is_rigid() || *r <= self.parameters[Parameter::Delta]
+    }
+
+    fn terms(&self, which: usize, _mode: &GeneralMode<f64>, state: &State<f64>) -> f64 {
+        let folds = if which < 3 { 0.0 } else { self.parameters[Parameter::FoldForce] };
+        let rise = 1.0 + self.parameters[Parameter::FoldFriction];
+        rise * General::terms(&self.parameters, which, state) + folds
     }
 }
 
@@ -314,6 +345,7 @@ contract! {
     capsule: CapsuleSystem<Filippov>, 3;
     capsule_as_printed: CapsuleSystem<AsPrinted>, 3;
     family_of_capsules: CapsuleSystem<General>, 3;
+    family_over_folds: CapsuleSystem<OverFolds>, 4;
     belt_oscillator: Belt<f64>, 1;
     impact_oscillator: Impact<f64>, 2;
     duffing_oscillator: Duffing<f64>, 2;

@@ -12,6 +12,8 @@ use super::Vector;
 pub(super) struct Second<'a> {
     pub(super) p: &'a Parameters,
     pub(super) phase: f64,
+    /// Where the capsule is between two folds while x2 is zero, in spacings.
+    pub(super) begins: f64,
     /// Whether the front stop and the rear stop are touched.
     pub(super) touched: [bool; 2],
     /// Whether the mass is beyond the place of a stop that has let go of it.
@@ -75,13 +77,44 @@ impl Second<'_> {
         [self.part(Parameter::Load) - weights[0] * sin, -weights[1] * sin]
     }
 
-    pub(super) fn break_away(&self, side: f64) -> f64 {
+    pub(super) fn break_away(&self, side: f64, state: &Vector) -> f64 {
         let (mu_s, mu_d) = (self.mu_s(side), self.mu_d(side));
+        let load = self.raise(state) * self.load();
         match self.p.resistance() {
-            Resistance::CoulombStribeck => mu_s.max((1.0 + self.stribeck()) * mu_d) * self.load(),
-            Resistance::Coulomb => mu_s.max(mu_d) * self.load(),
+            Resistance::CoulombStribeck => mu_s.max((1.0 + self.stribeck()) * mu_d) * load,
+            Resistance::Coulomb => mu_s.max(mu_d) * load,
             Resistance::Medium => 0.0,
         }
+    }
+
+    /// Where the capsule is on a fold, as an angle, and how high that is; none on even ground.
+    fn on_fold(&self, state: &Vector) -> Option<(f64, f64)> {
+        if !self.p.shape().over_folds {
+            return None;
+        }
+        let angle = 2.0 * PI * (self.begins + state[2] / self.of(Parameter::FoldSpacing));
+        let fall = libm::cos(angle) - 1.0;
+        Some((angle, libm::exp(self.of(Parameter::FoldSharpness) * fall)))
+    }
+
+    /// What folds multiply the resistance of even ground with.
+    fn raise(&self, state: &Vector) -> f64 {
+        self.on_fold(state)
+            .map_or(1.0, |(_, height)| 1.0 + self.of(Parameter::FoldFriction) * height)
+    }
+
+    /// The force of the folds, forward positive; its largest value is sought where its slope is zero, by bisection.
+    fn fold_force(&self, state: &Vector) -> f64 {
+        let Some((angle, height)) = self.on_fold(state) else { return 0.0 };
+        let sharpness = self.of(Parameter::FoldSharpness);
+        let (mut low, mut high) = (0.0, 0.5 * PI);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let rises = libm::cos(middle) > sharpness * libm::sin(middle).powi(2);
+            (low, high) = if rises { (middle, high) } else { (low, middle) };
+        }
+        let largest = libm::sin(low) * libm::exp(sharpness * (libm::cos(low) - 1.0));
+        self.of(Parameter::FoldForce) * libm::sin(angle) * height / largest
     }
 
     pub(super) fn omega(&self) -> f64 {
@@ -251,10 +284,10 @@ impl Second<'_> {
     }
 
     /// What moves mass and capsule together but for the friction.
-    fn common(&self, t: f64) -> f64 {
+    fn common(&self, t: f64, state: &Vector) -> f64 {
         let reacts = self.p.shape().reaction == Reaction::Capsule;
         let drive = if reacts { 0.0 } else { self.drive(t) };
-        drive + self.along().iter().sum::<f64>()
+        drive + self.along().iter().sum::<f64>() + self.fold_force(state)
     }
 
     /// The force of a rigid stop on a mass that stays at it, against the mass.
@@ -268,25 +301,26 @@ impl Second<'_> {
     pub(super) fn push(&self, t: f64, state: &Vector) -> f64 {
         if self.is_prescribed() {
             let [_, acceleration] = self.prescribed(t);
-            return self.along().iter().sum::<f64>() - self.of(Parameter::M1) * acceleration;
+            let along = self.along().iter().sum::<f64>() + self.fold_force(state);
+            return along - self.of(Parameter::M1) * acceleration;
         }
         if self.is_at_stop() {
-            return self.common(t);
+            return self.common(t, state);
         }
         let reacts = self.p.shape().reaction == Reaction::Capsule;
         let reaction = if reacts { self.drive(t) } else { 0.0 };
-        self.force(state) - reaction + self.along()[0]
+        self.force(state) - reaction + self.along()[0] + self.fold_force(state)
     }
 
     /// The direction in which a capsule at rest starts to slide, 0 where it rests on.
     pub(super) fn start_of_sliding(&self, t: f64, state: &Vector) -> f64 {
         let push = self.push(t, state);
-        let holds = -self.break_away(-1.0) <= push && push <= self.break_away(1.0);
+        let holds = -self.break_away(-1.0, state) <= push && push <= self.break_away(1.0, state);
         if holds { 0.0 } else { push.signum() }
     }
 
-    pub(super) fn resistance(&self, y2: f64) -> f64 {
-        let side = self.slip;
+    pub(super) fn resistance(&self, state: &Vector) -> f64 {
+        let (side, y2) = (self.slip, state[3]);
         let c1 =
             self.coefficient(side, [Parameter::C1Forward, Parameter::C1Backward, Parameter::C1]);
         let c2 =
@@ -294,21 +328,22 @@ impl Second<'_> {
         let dry = side * self.mu_d(side) * self.load();
         // Written for the direction of the mode, so that it is smooth where y2 passes zero within a step.
         let drag = c1 * y2 + c2 * side * y2 * y2;
-        match self.p.resistance() {
+        let on_even_ground = match self.p.resistance() {
             Resistance::CoulombStribeck => {
                 let rise = libm::exp(-(side * y2) / self.of(Parameter::Vs));
                 dry * (1.0 + self.stribeck() * rise) + drag
             }
             Resistance::Coulomb => dry + drag,
             Resistance::Medium => drag,
-        }
+        };
+        self.raise(state) * on_even_ground
     }
 
     pub(super) fn rates(&self, t: f64, state: &Vector) -> Vector {
         let [_, y1, _, y2] = *state;
         if self.is_prescribed() {
             let [speed, acceleration] = self.prescribed(t);
-            let moves = self.push(t, state) - self.resistance(y2);
+            let moves = self.push(t, state) - self.resistance(state);
             let total = self.of(Parameter::M1) + self.of(Parameter::M2);
             let own = if self.slip == 0.0 { 0.0 } else { moves / total };
             return [speed, own + acceleration, if self.slip == 0.0 { 0.0 } else { y2 }, own];
@@ -321,7 +356,7 @@ impl Second<'_> {
         if self.slip == 0.0 {
             return [y1, acceleration, 0.0, 0.0];
         }
-        let moves = self.push(t, state) - self.resistance(y2);
+        let moves = self.push(t, state) - self.resistance(state);
         if self.is_at_stop() {
             let acceleration = moves / (self.of(Parameter::M1) + self.of(Parameter::M2));
             return [0.0, acceleration, y2, acceleration];

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use capsulemap_engine::lane::Lane;
 
 use super::drive::mean_and_largest;
+use super::folds::Folds;
 use super::ground::Ground;
 use crate::capsule::parameter::Parameter;
 use crate::capsule::shape::Shape;
@@ -22,9 +23,9 @@ pub struct Balance<L> {
     pub along: L,
     /// The largest force that the drive may have [N].
     pub largest_drive: L,
-    /// The friction at high speed against a motion in the direction of the mean; infinite where there is drag [N].
+    /// The friction at high speed against a motion in the direction of the mean, over folds its mean; infinite where there is drag [N].
     pub sliding: L,
-    /// The larger of the forces at which the capsule breaks away, forward and backward [N].
+    /// The larger of the forces at which the capsule breaks away, forward and backward; over folds the largest that this may be [N].
     pub break_away: L,
 }
 
@@ -50,14 +51,20 @@ impl<L: Lane> Balance<L> {
         let external = if shape.reacts() { zero } else { mean_drive };
         let mean = external + along;
         let against = ground.towards(mean);
+        let folds = Folds::new(&of, shape);
+        let (mut at_speed, mut at_top, mut fold) = (L::splat(1.0), L::splat(1.0), zero);
+        if shape.over_folds {
+            (at_speed, at_top) = (folds.mean_resistance(), folds.largest_resistance());
+            fold = of(Parameter::FoldForce);
+        }
         let drag = if shape.has_drag() { against.linear + against.quadratic } else { zero };
         let (forward, backward) = (ground.forward.break_away, ground.backward.break_away);
         Balance {
             mean,
             along,
             largest_drive,
-            sliding: L::select(zero.lt(drag), far, against.dynamic),
-            break_away: forward.max(backward),
+            sliding: L::select(zero.lt(drag), far, against.dynamic * at_speed),
+            break_away: forward.max(backward) * at_top + fold,
         }
     }
 

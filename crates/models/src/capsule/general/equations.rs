@@ -6,6 +6,7 @@ use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 
 use super::balance::Balance;
 use super::drive::PiecewiseDrive;
+use super::folds::Folds;
 use super::ground::Ground;
 use super::springs::Springs;
 use super::state::{BACKWARD, EDGE, FRONT, FRONT_FORCE, GeneralJet, GeneralMode, REAR, REAR_FORCE};
@@ -16,9 +17,10 @@ use crate::capsule::state::{EventKind, State};
 
 /// A capsule of the family with one set of parameters per lane.
 ///
-/// Equations: m1 y1' = P - F - m1 g sin(alpha), m2 y2' = F - rho P - f - m2 g sin(alpha) + F_ext, the friction f set-valued at rest.
+/// Equations: m1 y1' = P - F - m1 g sin(alpha), m2 y2' = F - rho P - f - m2 g sin(alpha) + F_ext, the friction f set-valued at rest;
+/// with `FOLDS` the way has folds, and their force is beside f.
 #[derive(Debug, Clone, Copy)]
-pub struct GeneralCapsule<L: Lane> {
+pub struct GeneralCapsule<L: Lane, const FOLDS: bool> {
     pub(super) m1: L,
     pub(super) inverse_m1: L,
     pub(super) inverse_m2: L,
@@ -28,21 +30,22 @@ pub struct GeneralCapsule<L: Lane> {
     pub(super) drive: PiecewiseDrive<L>,
     pub(super) springs: Springs<L>,
     pub(super) ground: Ground<L>,
+    pub(super) folds: Folds<L>,
     /// Whether the capsule takes up the reaction of the drive: rho = 1.
     pub(super) reacts: bool,
     /// What the largest force of the drive makes of the velocity of the mass within a radian of its phase [m/s].
     pub(super) usual_speed: L,
     /// The mean force along the ground, forward positive [N].
-    mean_force: L,
+    pub(super) mean_force: L,
     /// The speed at which the capsule has run away in its direction; infinite where that force is held [m/s].
-    runaway_speed: L,
+    pub(super) runaway_speed: L,
 }
 
-side_by_side!(GeneralCapsule {
+side_by_side!(GeneralCapsule<const FOLDS: bool> {
     m1, inverse_m1, inverse_m2, share_of_mass, share_of_capsule, usual_speed, mean_force, runaway_speed
-} with { drive, springs, ground } alike { reacts });
+} with { drive, springs, ground, folds } alike { reacts });
 
-impl<L: Lane> GeneralCapsule<L> {
+impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
     /// The capsule with these parameters, whose drive is at `phase` at the section [rad].
     pub fn new(of: impl Fn(Parameter) -> L, shape: Shape, phase: f64) -> Self {
         let balance = Balance::new(&of, shape);
@@ -56,6 +59,7 @@ impl<L: Lane> GeneralCapsule<L> {
             drive: PiecewiseDrive::new(&of, shape, phase),
             springs: Springs::new(&of, shape),
             ground: Ground::new(&of, shape),
+            folds: Folds::new(&of, shape),
             reacts: shape.reacts(),
             usual_speed: balance.largest_drive / (m1 * shape.frequency(&of)),
             mean_force: balance.mean,
@@ -93,6 +97,7 @@ impl<L: Lane> GeneralCapsule<L> {
             if mode.slides().any() { drag.decay_start(state.y2) } else { L::splat(0.0) };
         drag.write_exponent_term(mode.slip, motion, 0);
         self.springs.begin_squares(state.r, &mut jet.squares);
+        self.begin_folds(state, jet);
     }
 
     /// Writes the terms of the motion of the capsule that follow from term `k` of what moves it and of its speed.
@@ -111,16 +116,23 @@ impl<L: Lane> GeneralCapsule<L> {
         if !any_slides {
             motion.acceleration[k] = zero;
             (motion.y2[k + 1], motion.x2[k + 1], motion.decay[k + 1]) = (zero, zero, zero);
+            if FOLDS {
+                jet.folds.rest(k + 1);
+            }
             return;
         }
         let of_speed = [&motion.decay, &motion.y2];
-        let friction = self.ground.force_term(drag, mode.slip, of_speed, k);
+        let mut friction = self.ground.force_term(drag, mode.slip, of_speed, k);
+        if FOLDS {
+            friction = self.folds.resistance_term(friction, &mut jet.folds, k);
+        }
         let moves = (jet.push[k] - friction) * inverse_mass;
         motion.acceleration[k] = L::select(mode.slides(), moves, zero);
         motion.y2[k + 1] = motion.acceleration[k].scaled(per);
         motion.x2[k + 1] = motion.y2[k].scaled(per);
         drag.write_exponent_term(mode.slip, motion, k + 1);
         motion.decay[k + 1] = drag.decay_term(mode.slip, motion, k);
+        self.move_on(jet, k + 1);
     }
 
     /// Writes term `k` of the forces between mass and capsule, and of what moves the capsule.
@@ -145,18 +157,18 @@ impl<L: Lane> GeneralCapsule<L> {
             motion.force[k] =
                 linear + self.springs.cubic_term(&touched, &motion.r, &mut jet.squares, k);
         }
-        let (zero, is_first) = (L::splat(0.0), k == 0);
-        let push = motion.force[k] + if is_first { self.ground.push } else { zero };
+        let pushed = self.pushed_term(jet, k);
+        let push = jet.motion.force[k] + pushed;
         jet.push[k] = if self.reacts { push - jet.drive[k] } else { push };
         if self.springs.is_rigid {
-            let along = if is_first { self.ground.push + self.ground.pull } else { zero };
+            let along = pushed + if k == 0 { self.ground.pull } else { L::splat(0.0) };
             let common = if self.reacts { along } else { jet.drive[k] + along };
             jet.push[k] = L::select(mode.front, common, jet.push[k]);
         }
     }
 }
 
-impl<L: Lane> Switched<L> for GeneralCapsule<L> {
+impl<L: Lane, const FOLDS: bool> Switched<L> for GeneralCapsule<L, FOLDS> {
     type State = State<L>;
     type Mode = GeneralMode<L>;
     type Jet = GeneralJet<L>;
@@ -171,12 +183,15 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
     }
 
     fn start(&self, time: L, state: &mut State<L>) -> GeneralMode<L> {
-        self.mode_at(time, state)
+        if FOLDS { self.at_place(state).mode_at(time, state) } else { self.mode_at(time, state) }
     }
 
     #[inline(always)]
-    fn begin_cycle(&self, mask: L::Mask, mode: &mut GeneralMode<L>) {
+    fn begin_cycle(&self, mask: L::Mask, mode: &mut GeneralMode<L>, state: &mut State<L>) {
         mode.passed = L::select(mask, L::splat(0.0), mode.passed);
+        if FOLDS {
+            state.place = L::select(mask, self.folds.within(state.place), state.place);
+        }
     }
 
     #[inline(always)]
@@ -272,17 +287,24 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
 
     #[inline(always)]
     fn at(&self, jet: &GeneralJet<L>, h: L) -> State<L> {
-        jet.motion.state(h)
+        let state = jet.motion.state(h);
+        if FOLDS { State { place: self.place(jet, h), ..state } } else { state }
     }
 
     #[inline(always)]
     fn motion(&self, jet: &GeneralJet<L>, h: L) -> (State<L>, State<L>) {
-        jet.motion.motion(h)
+        let (mut state, mut slope) = jet.motion.motion(h);
+        if FOLDS {
+            state.place = self.place(jet, h);
+            slope.place = slope.x2 * self.folds.per_length;
+        }
+        (state, slope)
     }
 
     #[inline(always)]
     fn beginning(&self, jet: &GeneralJet<L>) -> State<L> {
-        jet.motion.beginning()
+        let state = jet.motion.beginning();
+        if FOLDS { State { place: jet.place, ..state } } else { state }
     }
 
     #[inline(always)]
@@ -305,15 +327,10 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
         zeros: &mut Zeros<L>,
         time: L,
     ) -> L {
-        let event = match which {
-            EDGE => self.pass_edge(due, mode, state, zeros),
-            FRONT if self.springs.is_rigid => self.meet_rigid_stop(due, mode, state, zeros, time),
-            FRONT | REAR => self.meet_stop(which, due, mode, state, zeros),
-            FRONT_FORCE | REAR_FORCE => self.turn_force(which, due, mode, zeros),
-            _ => self.obey_ground(which, due, mode, state, zeros, time),
-        };
-        self.note_jumps(which, due, mode, state, zeros, time);
-        event
+        match FOLDS {
+            true => self.at_place(state).obey(which, due, mode, state, zeros, time),
+            false => self.obey(which, due, mode, state, zeros, time),
+        }
     }
 
     #[inline(always)]
@@ -339,7 +356,7 @@ impl<L: Lane> Switched<L> for GeneralCapsule<L> {
     }
 }
 
-impl<L: Lane> Stroboscopic<L, 3> for GeneralCapsule<L> {
+impl<L: Lane> Stroboscopic<L, 3> for GeneralCapsule<L, false> {
     #[inline(always)]
     fn point(state: &State<L>) -> [L; 3] {
         [state.r, state.y1, state.y2]
@@ -347,7 +364,8 @@ impl<L: Lane> Stroboscopic<L, 3> for GeneralCapsule<L> {
 
     #[inline(always)]
     fn state([r, y1, y2]: [L; 3]) -> State<L> {
-        State { r, y1, x2: L::splat(0.0), y2 }
+        let zero = L::splat(0.0);
+        State { r, y1, x2: zero, y2, place: zero }
     }
 
     #[inline(always)]

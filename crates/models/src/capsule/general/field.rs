@@ -8,64 +8,83 @@ use super::state::{GeneralJet, GeneralMode};
 use crate::capsule::locomotion::{DriveSeries, Jump, Locomotion, Parts};
 use crate::capsule::state::{Jet, State};
 
-impl Field for GeneralCapsule<f64> {
-    type Coordinates = [f64; 4];
+impl<const FOLDS: bool> Field for GeneralCapsule<f64, FOLDS> {
+    type Coordinates = [f64; 5];
 
-    fn coordinates(state: &State<f64>) -> [f64; 4] {
-        state.coordinates()
+    fn coordinates(state: &State<f64>) -> [f64; 5] {
+        let [r, y1, x2, y2] = state.coordinates();
+        [r, y1, x2, y2, state.place]
     }
 
     fn rates(&self, mode: &GeneralMode<f64>, time: f64, state: &State<f64>) -> State<f64> {
         let State { y1, y2, .. } = *state;
         if self.drive.is_prescribed() {
-            return self.prescribed_rates(mode, time, y2);
+            return self.prescribed_rates(mode, time, state);
         }
         let force = self.springs.force(&mode.touched(), state);
         let drive = self.drive.exact_force(mode.passed, time);
         let acceleration = (drive - force + self.ground.pull) * self.inverse_m1;
         if self.lasts(mode) {
-            return self.rates_at_stop(mode.slip, y2, drive);
+            return self.rates_at_stop(mode.slip, drive, state);
         }
         if mode.slip == 0.0 {
-            return State { r: y1, y1: acceleration, x2: 0.0, y2: 0.0 };
+            return State { r: y1, y1: acceleration, ..State::default() };
         }
         let reaction = if self.reacts { drive } else { 0.0 };
-        let push = force - reaction + self.ground.push - self.ground.force(mode.slip, y2);
-        State { r: y1 - y2, y1: acceleration, x2: y2, y2: push * self.inverse_m2 }
+        let push = force - reaction + self.exact_ground(mode.slip, state);
+        let place = y2 * self.folds.per_length;
+        State { r: y1 - y2, y1: acceleration, x2: y2, y2: push * self.inverse_m2, place }
     }
 
     /// A displacement r or x2 counts as the velocity omega r.
-    fn weights(&self) -> [f64; 4] {
-        [self.drive.omega, 1.0, self.drive.omega, 1.0]
+    fn weights(&self) -> [f64; 5] {
+        let omega = self.drive.omega;
+        [omega, 1.0, omega, 1.0, if FOLDS { omega / self.folds.per_length } else { 0.0 }]
     }
 }
 
-impl GeneralCapsule<f64> {
+impl<const FOLDS: bool> GeneralCapsule<f64, FOLDS> {
+    /// The force of the ground on a capsule that slides in the direction `slip`, as the laws are written [N].
+    fn exact_ground(&self, slip: f64, state: &State<f64>) -> f64 {
+        let resistance = self.ground.force(slip, state.y2);
+        if !FOLDS {
+            return self.ground.push - resistance;
+        }
+        let folds = self.folds.exactly_at(state.place);
+        self.ground.push + folds.pushes - folds.resists * resistance
+    }
+
     /// The rates where the motion of the mass relative to the capsule is prescribed.
-    fn prescribed_rates(&self, mode: &GeneralMode<f64>, time: f64, y2: f64) -> State<f64> {
+    fn prescribed_rates(
+        &self,
+        mode: &GeneralMode<f64>,
+        time: f64,
+        state: &State<f64>,
+    ) -> State<f64> {
         let [speed, acceleration] = self.drive.exact_motion(mode.passed, time);
         if mode.slip == 0.0 {
-            return State { r: speed, y1: acceleration, x2: 0.0, y2: 0.0 };
+            return State { r: speed, y1: acceleration, ..State::default() };
         }
-        let along = self.ground.push + self.ground.pull;
-        let push = along - self.m1 * acceleration - self.ground.force(mode.slip, y2);
+        let push = self.ground.pull + self.exact_ground(mode.slip, state) - self.m1 * acceleration;
         let own = push * self.share_of_mass * self.inverse_m1;
-        State { r: speed, y1: own + acceleration, x2: y2, y2: own }
+        let (x2, place) = (state.y2, state.y2 * self.folds.per_length);
+        State { r: speed, y1: own + acceleration, x2, y2: own, place }
     }
 
     /// The rates of a mass that stays at its rigid stop, and so moves with the capsule.
-    fn rates_at_stop(&self, slip: f64, y2: f64, drive: f64) -> State<f64> {
+    fn rates_at_stop(&self, slip: f64, drive: f64, state: &State<f64>) -> State<f64> {
         if slip == 0.0 {
             return State::default();
         }
         let external = if self.reacts { 0.0 } else { drive };
-        let push = external + self.ground.push + self.ground.pull - self.ground.force(slip, y2);
+        let push = external + self.ground.pull + self.exact_ground(slip, state);
         let acceleration = push * self.inverse_m1 * self.share_of_mass;
-        State { r: 0.0, y1: acceleration, x2: y2, y2: acceleration }
+        let (x2, place) = (state.y2, state.y2 * self.folds.per_length);
+        State { r: 0.0, y1: acceleration, x2, y2: acceleration, place }
     }
 }
 
-impl<L: Lane> Locomotion<L> for GeneralCapsule<L> {
+impl<L: Lane, const FOLDS: bool> Locomotion<L> for GeneralCapsule<L, FOLDS> {
     const HAS_PARTS: bool = true;
 
     #[inline(always)]
@@ -86,9 +105,15 @@ impl<L: Lane> Locomotion<L> for GeneralCapsule<L> {
         if slides.any() {
             let drag = self.ground.towards(mode.slip);
             let of_speed = [&jet.motion.decay, &jet.motion.y2];
-            for (k, term) in friction.iter_mut().enumerate() {
-                let sliding = self.ground.force_term(&drag, mode.slip, of_speed, k);
-                *term = L::select(slides, sliding, *term);
+            let mut sliding = series::zero();
+            for (k, term) in sliding.iter_mut().enumerate() {
+                *term = self.ground.force_term(&drag, mode.slip, of_speed, k);
+            }
+            if FOLDS {
+                sliding = self.folds.raised(&sliding, &jet.folds);
+            }
+            for (term, sliding) in friction.iter_mut().zip(&sliding) {
+                *term = L::select(slides, *sliding, *term);
             }
         }
         friction
@@ -117,6 +142,15 @@ impl<L: Lane> Locomotion<L> for GeneralCapsule<L> {
         let mut drag = series::zero();
         if mode.slides().any() {
             drag = self.ground.drag(mode.slip, &jet.motion.y2);
+            if FOLDS {
+                drag = self.folds.raised(&drag, &jet.folds);
+            }
+        }
+        let mut folds = series::zero();
+        if FOLDS {
+            for (k, term) in folds.iter_mut().enumerate() {
+                *term = self.folds.push_term(&jet.folds, k);
+            }
         }
         let mut stops = self.springs.stop_forces(&touched, [&jet.motion.r, &jet.relative]);
         self.add_bearing(mode, jet, &mut stops[0]);
@@ -126,6 +160,7 @@ impl<L: Lane> Locomotion<L> for GeneralCapsule<L> {
             is_rigid: self.springs.is_rigid,
             damping: self.springs.contact_damping(&touched),
             drag,
+            folds,
         })
     }
 

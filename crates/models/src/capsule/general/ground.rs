@@ -3,6 +3,7 @@
 use capsulemap_engine::lane::elementary::sin_cos;
 use capsulemap_engine::lane::{Lane, Series, series, side_by_side};
 
+use super::folds::AtPlace;
 use crate::capsule::drag::Drag;
 use crate::capsule::parameter::Parameter;
 use crate::capsule::resistance::Resistance;
@@ -67,6 +68,17 @@ impl<L: Lane> Ground<L> {
             pull: -(m1 * g * sin),
             has_drag: shape.has_drag(),
             has_sides: shape.has_any(&FORWARD) || shape.has_any(&BACKWARD),
+        }
+    }
+
+    /// The even ground that a way with folds is like at one place.
+    #[inline(always)]
+    pub fn at(&self, place: &AtPlace<L>) -> Self {
+        Ground {
+            forward: self.forward.times(place.resists),
+            backward: self.backward.times(place.resists),
+            push: self.push + place.pushes,
+            ..*self
         }
     }
 

@@ -6,7 +6,7 @@ use super::equations::GeneralCapsule;
 use super::springs::Touched;
 use super::state::{EDGE, FORWARD, FRONT, FRONT_FORCE, GeneralJet, GeneralMode, REAR, REAR_FORCE};
 
-impl<L: Lane> GeneralCapsule<L> {
+impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
     /// Writes a guard in numbers of another kind, `of` those here.
     #[inline(always)]
     pub(super) fn write_guard<G: Lane<Mask = L::Mask, Plain = L::Plain>>(
@@ -64,10 +64,13 @@ impl<L: Lane> GeneralCapsule<L> {
         guard: &mut Series<G>,
     ) {
         let (zero, one) = (L::Plain::splat(0.0), L::Plain::splat(1.0));
-        let (side, limit) = match which {
+        let (side, mut limit) = match which {
             FORWARD => (-one, self.ground.forward.break_away),
             _ => (one, self.ground.backward.break_away),
         };
+        if FOLDS {
+            limit = self.folds.raised_by_start(limit, &jet.folds);
+        }
         let slides = mode.slides();
         let factor = L::Plain::select(slides, mode.slip.plain(), side);
         for (term, (push, y2)) in guard.iter_mut().zip(jet.push.iter().zip(&jet.motion.y2)) {

@@ -7,7 +7,7 @@ use super::state::{GeneralJet, GeneralMode};
 use crate::capsule::locomotion::{Jump, direction};
 use crate::capsule::state::{EventKind, State, is_event};
 
-impl<L: Lane> GeneralCapsule<L> {
+impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
     /// What moves the capsule but for the friction: the inertia of the mass, and what acts along the ground [N].
     #[inline(always)]
     pub(super) fn push_of_prescribed(&self, mode: &GeneralMode<L>, time: L) -> L {
@@ -46,10 +46,11 @@ impl<L: Lane> GeneralCapsule<L> {
         (motion.x2[0], motion.y2[0]) = (state.x2, state.y2);
         motion.decay[0] = if any_slides { drag.decay_start(state.y2) } else { zero };
         drag.write_exponent_term(mode.slip, motion, 0);
+        self.begin_folds(state, jet);
         let inverse_mass = self.share_of_mass * self.inverse_m1;
-        let along = self.ground.push + self.ground.pull;
         for k in 0..ORDER + 1 {
-            let constant = if k == 0 { along } else { zero };
+            let of_mass = if k == 0 { self.ground.pull } else { zero };
+            let constant = self.pushed_term(jet, k) + of_mass;
             jet.push[k] = constant - self.m1 * prescribed.acceleration[k];
             if k < ORDER {
                 self.write_capsule_term(mode, any_slides, &drag, inverse_mass, jet, k);

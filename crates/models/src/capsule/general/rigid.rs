@@ -21,7 +21,7 @@ struct AfterImpact<L: Lane> {
     lasts: L::Mask,
 }
 
-impl<L: Lane> GeneralCapsule<L> {
+impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
     /// Where the mass stays at the rigid stop.
     #[inline(always)]
     pub(super) fn lasts(&self, mode: &GeneralMode<L>) -> L::Mask {

@@ -2,6 +2,7 @@
 
 use capsulemap_engine::lane::{Lane, Mask, Series, series, side_by_side};
 
+use super::folds::FoldSeries;
 use super::springs::{Squares, Touched};
 use crate::capsule::state::{EventKind, Jet};
 
@@ -121,11 +122,14 @@ pub struct GeneralJet<L> {
     /// Velocity of the mass relative to the capsule [m/s].
     pub relative: Series<L>,
     pub(super) squares: Squares<L>,
+    pub(super) folds: FoldSeries<L>,
+    /// The place between two folds where the step begins, in spacings.
+    pub(super) place: L,
     /// How long the next edge of the drive is away [s].
     pub(super) until_edge: L,
 }
 
-side_by_side!(GeneralJet { until_edge } with { motion, drive, push, relative, squares });
+side_by_side!(GeneralJet { place, until_edge } with { motion, drive, push, relative, squares, folds });
 
 impl<L: Lane> Default for GeneralJet<L> {
     #[inline(always)]
@@ -137,6 +141,8 @@ impl<L: Lane> Default for GeneralJet<L> {
             push: zero,
             relative: zero,
             squares: Squares::default(),
+            folds: FoldSeries::default(),
+            place: L::splat(0.0),
             until_edge: L::splat(0.0),
         }
     }

@@ -4,11 +4,11 @@ use capsulemap_engine::flow::{Event, Zeros};
 use capsulemap_engine::lane::{Lane, Mask};
 
 use super::equations::GeneralCapsule;
-use super::state::{EDGE, FORWARD, FRONT, FRONT_FORCE, GeneralMode, REAR};
+use super::state::{EDGE, FORWARD, FRONT, FRONT_FORCE, GeneralMode, REAR, REAR_FORCE};
 use crate::capsule::locomotion::direction;
 use crate::capsule::state::{EventKind, State};
 
-impl<L: Lane> GeneralCapsule<L> {
+impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
     /// The mode of a state at a time, which is moved onto rest where it rests.
     pub(super) fn mode_at(&self, time: L, state: &mut State<L>) -> GeneralMode<L> {
         let zero = L::splat(0.0);
@@ -21,7 +21,6 @@ impl<L: Lane> GeneralCapsule<L> {
         };
         if self.drive.is_prescribed() {
             (mode.front, mode.rear) = (L::Mask::splat(false), L::Mask::splat(false));
-            self.place_mass(L::Mask::splat(true), &mode, time, state);
         }
         if self.springs.is_rigid {
             mode.front = L::Mask::splat(false);
@@ -43,6 +42,28 @@ impl<L: Lane> GeneralCapsule<L> {
         mode
     }
 
+    /// Obeys a guard where `due`; returns the event there.
+    #[inline(always)]
+    pub(super) fn obey(
+        &self,
+        which: usize,
+        due: L::Mask,
+        mode: &mut GeneralMode<L>,
+        state: &mut State<L>,
+        zeros: &mut Zeros<L>,
+        time: L,
+    ) -> L {
+        let event = match which {
+            EDGE => self.pass_edge(due, mode, state, zeros),
+            FRONT if self.springs.is_rigid => self.meet_rigid_stop(due, mode, state, zeros, time),
+            FRONT | REAR => self.meet_stop(which, due, mode, state, zeros),
+            FRONT_FORCE | REAR_FORCE => self.turn_force(which, due, mode, zeros),
+            _ => self.obey_ground(which, due, mode, state, zeros, time),
+        };
+        self.note_jumps(which, due, mode, state, zeros, time);
+        event
+    }
+
     /// Where a push exceeds what holds the capsule at rest.
     #[inline(always)]
     pub(super) fn beyond_rest(&self, push: L) -> L::Mask {
@@ -52,7 +73,7 @@ impl<L: Lane> GeneralCapsule<L> {
 
     /// Notes what a force that has jumped at the event of guard `which` does at once.
     #[inline(always)]
-    pub(super) fn note_jumps(
+    fn note_jumps(
         &self,
         which: usize,
         due: L::Mask,
@@ -91,7 +112,7 @@ impl<L: Lane> GeneralCapsule<L> {
 
     /// Passes the next edge of the drive where `due`; returns the event there.
     #[inline(always)]
-    pub(super) fn pass_edge(
+    fn pass_edge(
         &self,
         due: L::Mask,
         mode: &mut GeneralMode<L>,
@@ -109,7 +130,7 @@ impl<L: Lane> GeneralCapsule<L> {
 
     /// Meets or leaves a stop where `due`; returns the event there.
     #[inline(always)]
-    pub(super) fn meet_stop(
+    fn meet_stop(
         &self,
         which: usize,
         due: L::Mask,
@@ -131,7 +152,7 @@ impl<L: Lane> GeneralCapsule<L> {
 
     /// Lets go of a mass that its stop would pull, or touches one that it would push, where `due`; returns the event there.
     #[inline(always)]
-    pub(super) fn turn_force(
+    fn turn_force(
         &self,
         which: usize,
         due: L::Mask,
@@ -158,7 +179,7 @@ impl<L: Lane> GeneralCapsule<L> {
 
     /// Leaves rest, comes to rest or turns round where `due`; returns the event there.
     #[inline(always)]
-    pub(super) fn obey_ground(
+    fn obey_ground(
         &self,
         which: usize,
         due: L::Mask,
