@@ -137,7 +137,7 @@ impl FirstSample {
         let FirstSample { r, x2, y1, .. } = self;
         let y1 = y1.unwrap_or(r.rate.plus(y2));
         let level = x2.map_or(0.0, |it| it.level.value);
-        let start = State { r: r.level.value, y1: y1.value, x2: level, y2: y2.value };
+        let start = State::of([r.level.value, y1.value, level, y2.value]);
         let mut unknown = vec![
             (Direction::StartR, r.level.bounds()),
             (Direction::StartY1, y1.bounds()),

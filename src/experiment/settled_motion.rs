@@ -67,7 +67,7 @@ impl Settled {
         let found = sampled(&section, &[turned], &signals, &[], TOLERANCE)
             .map_err(|why| format!("the simulation cannot be followed: {why:?}"))?;
         let [r, y1, y2] = [0, 1, 2].map(|i| found.values[i][0]);
-        Ok(Started { start: State { r, y1, x2: 0.0, y2 }, phase, ..section })
+        Ok(Started { start: State::of([r, y1, 0.0, y2]), phase, ..section })
     }
 }
 
