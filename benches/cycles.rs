@@ -10,7 +10,7 @@ mod lanes;
 use std::hint::black_box;
 use std::time::Instant;
 
-use capsulemap::capsule::over_folds::CAPSULE_OVER_FOLDS;
+use capsulemap::capsule::description::CAPSULE_OVER_FOLDS;
 use capsulemap::capsule::{CapsuleParameters as _, DriveKind, Parameter, Parameters};
 use capsulemap::lane::Instructions;
 use cases::{TOLERANCE, case_sets, integrate};

@@ -10,8 +10,7 @@ use super::phases::Phases;
 use super::simulation_text::summary;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
-use crate::capsule::description::CAPSULE;
-use crate::capsule::over_folds::CAPSULE_OVER_FOLDS;
+use crate::capsule::description::{CAPSULE, CAPSULE_OVER_FOLDS};
 use crate::capsule::{
     self, CapsuleParameters as _, DriveKind, Reaction, Release, Resistance, Switching,
 };

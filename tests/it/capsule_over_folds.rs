@@ -36,7 +36,7 @@ fn axis(name: &str, from: &str, to: &str, points: u32) -> String {
 fn locked_motions_are_told_by_their_folds_and_come_out_the_same_from_their_file() {
     let dir = WorkDir::new();
     let history = "[history]\ncycles = 3\n[protocol]\nexponent_cycles = 64\n";
-    dir.put("steps.toml", [STEPS, &axis("p_d", "0.09", "0.1", 11), history].concat());
+    dir.put("steps.toml", [STEPS, &axis("p_d", "90 mN", "100 mN", 11), history].concat());
     dir.run(&["sweep", "steps.toml", "--output", "s.h5", "--no-figures"]).done();
     let verified = dir.run(&["verify", "s.h5", "--cases", "11"]).done();
     assert!(verified.out.contains("came out the same"), "{}", verified.out);
@@ -76,8 +76,8 @@ fn locked_motions_are_told_by_their_folds_and_come_out_the_same_from_their_file(
 #[test]
 fn a_branch_of_a_locked_motion_ends_where_it_is_locked_no_more() {
     let dir = WorkDir::new();
-    let branch = "[[branches]]\nname = \"of seven\"\nalong = \"p_d\"\nat = { p_d = \"93 mN\" }\nfrom = \"0.0925\"\nto = \"0.094\"\n";
-    dir.put("b.toml", [STEPS, &axis("p_d", "0.0925", "0.094", 4), branch].concat());
+    let branch = "[[branches]]\nname = \"of seven\"\nalong = \"p_d\"\nat = { p_d = \"93 mN\" }\nfrom = \"92.5 mN\"\nto = \"94 mN\"\n";
+    dir.put("b.toml", [STEPS, &axis("p_d", "92.5 mN", "94 mN", 4), branch].concat());
     let continued = dir.run(&["continue", "b.toml", "--output", "b.h5"]).done().out;
     // One fold in seven cycles: -5 mm in 7/30 s, on all of the branch, which turns back at an end of its range.
     let special = continued.lines().filter(|line| line.contains("-21.4285"));
@@ -87,7 +87,8 @@ fn a_branch_of_a_locked_motion_ends_where_it_is_locked_no_more() {
 #[test]
 fn starts_between_two_folds_have_basins_and_a_place() {
     let dir = WorkDir::new();
-    let axes = [axis("start_place", "0", "1", 9), axis("start_y2", "-0.1", "0.1", 9)].concat();
+    let axes =
+        [axis("start_place", "0", "1", 9), axis("start_y2", "-0.1 m/s", "0.1 m/s", 9)].concat();
     dir.put("basin.toml", [STEPS, "p_d = \"98 mN\"\n", &axes].concat());
     dir.run(&["sweep", "basin.toml", "--output", "b.h5", "--no-figures"]).done();
     dir.run(&["figure", "b.h5", "--kind", "basin", "--formats", "svg"]).done();

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use capsulemap_engine::orbit::{Outcome, Protocol};
-use capsulemap_models::capsule::over_folds::CAPSULE_OVER_FOLDS;
+use capsulemap_models::capsule::description::CAPSULE_OVER_FOLDS;
 use capsulemap_models::capsule::{
     CapsuleParameters as _, DriveKind, Form, Output, Parameter, Parameters, Resistance, settle,
     simulate,

@@ -1,11 +1,11 @@
 //! What the capsule says of itself: the quantities of its starts, sections, impacts, histories, parameters and outputs.
 
 use super::output::{Output, Outputs};
-use super::over_folds::CAPSULE_OVER_FOLDS;
 use super::parameter::Parameter;
 use super::quantities::{
-    EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, END_R, END_Y1, END_Y2, NEUTRAL_R, NEUTRAL_Y1,
-    NEUTRAL_Y2, SECTION_R, SECTION_Y1, SECTION_Y2, START_R, START_X2, START_Y1, START_Y2,
+    EDGE_SECTION_PLACE, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, END_PLACE, END_R, END_Y1,
+    END_Y2, NEUTRAL_PLACE, NEUTRAL_R, NEUTRAL_Y1, NEUTRAL_Y2, SECTION_PLACE, SECTION_R, SECTION_Y1,
+    SECTION_Y2, START_PLACE, START_R, START_X2, START_Y1, START_Y2,
 };
 use super::resistance::{Resistance, Switching};
 use super::rules::RULES;
@@ -14,8 +14,8 @@ use super::shown::{output_shown, parameter_shown};
 use super::signals;
 use super::state::State;
 use crate::description::{
-    self, Choice, CoordinateDescription, Description, DriveRoles, OutputDescription,
-    ParameterDescription, Roles, TradeOffRoles,
+    self, Choice, CoordinateDescription, Description, DriveRoles, MotionDescription,
+    OutputDescription, ParameterDescription, Roles, TradeOffRoles,
 };
 use crate::quantity::Quantity;
 
@@ -26,7 +26,7 @@ pub const SECTION: &[Quantity] = &[SECTION_R, SECTION_Y1, SECTION_Y2];
 pub static CAPSULE: Description = ON_EVEN_GROUND;
 
 /// What a capsule on even ground says of itself, which others go on from.
-pub(super) const ON_EVEN_GROUND: Description = Description {
+const ON_EVEN_GROUND: Description = Description {
     name: "capsule",
     extends: None,
     parameters: PARAMETERS.split_at(Parameter::ALL.len()).0,
@@ -157,8 +157,57 @@ pub(super) const ON_EVEN_GROUND: Description = Description {
     rules: RULES,
 };
 
+/// The capsule on a way with evenly spaced folds. Its displacement drifts, as on even ground; its place between two folds is a
+/// coordinate of the section, so that a motion that repeats there passes a whole number of folds in its period.
+pub static CAPSULE_OVER_FOLDS: Description = Description {
+    name: "capsule-over-folds",
+    extends: Some(&CAPSULE),
+    parameters: PARAMETERS,
+    coordinates: &[
+        CoordinateDescription { name: "r", tag: "StartR", start: START_R },
+        CoordinateDescription { name: "y1", tag: "StartY1", start: START_Y1 },
+        CoordinateDescription { name: "x2", tag: "StartX2", start: START_X2 },
+        CoordinateDescription { name: "y2", tag: "StartY2", start: START_Y2 },
+        CoordinateDescription { name: "place", tag: "StartPlace", start: START_PLACE },
+    ],
+    on_section: &[0, 1, 3, 4],
+    section: &[SECTION_R, SECTION_Y1, SECTION_Y2, SECTION_PLACE],
+    compared_as: &["omega r", "y1", "y2", "omega x2"],
+    neutral: &[NEUTRAL_R, NEUTRAL_Y1, NEUTRAL_Y2, NEUTRAL_PLACE],
+    edge: &[EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, EDGE_SECTION_PLACE],
+    end: &[END_R, END_Y1, END_Y2, END_PLACE],
+    motion: MotionDescription {
+        // Impacts are not told with the place where they happen.
+        at_impact: Some(|r, told| {
+            let state = [r, told[1], 0.0, told[2], f64::NAN];
+            description::State::new(&CAPSULE_OVER_FOLDS, &state)
+        }),
+        ..signals::MOTION_OVER_FOLDS
+    },
+    outputs: OUTPUTS,
+    roles: Roles {
+        key_outputs: &[
+            Output::ProgressionSpeed as usize,
+            Output::ProgressionPerCycle as usize,
+            Output::FoldsPerPeriod as usize,
+            Output::WorkNet as usize,
+            Output::WorkPositive as usize,
+            Output::FrictionLoss as usize,
+            Output::DamperLoss as usize,
+            Output::Power as usize,
+            Output::EnergyPerMetre as usize,
+            Output::CostOfTransport as usize,
+            Output::ImpactsPerCycle as usize,
+            Output::StickShare as usize,
+            Output::LyapunovExponent as usize,
+        ],
+        ..ON_EVEN_GROUND.roles
+    },
+    ..ON_EVEN_GROUND
+};
+
 /// All outputs, those of folds last.
-pub(super) const OUTPUTS: &[OutputDescription] = &{
+const OUTPUTS: &[OutputDescription] = &{
     let mut all = [Output::ProgressionSpeed.description(); Output::OVER_FOLDS.len()];
     let mut index = 0;
     while index < all.len() {
@@ -169,7 +218,7 @@ pub(super) const OUTPUTS: &[OutputDescription] = &{
 };
 
 /// All parameters, those of folds last.
-pub(super) const PARAMETERS: &[ParameterDescription] = &{
+const PARAMETERS: &[ParameterDescription] = &{
     let mut all = [Parameter::M1.description(); Parameter::OVER_FOLDS.len()];
     let mut index = 0;
     while index < all.len() {

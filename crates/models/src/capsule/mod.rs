@@ -17,7 +17,6 @@ mod impacts;
 mod locomotion;
 pub mod mean_errors;
 pub mod output;
-pub mod over_folds;
 pub mod parameter;
 pub mod parameters;
 pub mod printed;

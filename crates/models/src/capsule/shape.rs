@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 
 use capsulemap_engine::lane::Lane;
 
-use super::over_folds::CAPSULE_OVER_FOLDS;
 use super::parameter::Parameter;
 use super::resistance::{Resistance, Switching};
 use crate::description::Parameters;
@@ -207,7 +206,7 @@ impl Shape {
             drive: DriveKind::NAMES[drive].1,
             reaction: Reaction::NAMES[reaction].1,
             release: Release::NAMES[release].1,
-            over_folds: *parameters.model() == CAPSULE_OVER_FOLDS,
+            over_folds: parameters.model().parameters.len() == Parameter::OVER_FOLDS.len(),
             given: parameters.given_places(),
         }
     }

@@ -1,9 +1,7 @@
 //! What the capsule says of its motion over time: signals, forces among them, impacts, events and sums.
 
-use super::description::CAPSULE;
 use super::forces::Forces;
 use super::output::Output;
-use super::over_folds::CAPSULE_OVER_FOLDS;
 use super::parameters::CapsuleParameters as _;
 use super::quantities::{
     HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FOLDS, HISTORY_FRICTION, HISTORY_PLACE, HISTORY_R,
@@ -109,7 +107,7 @@ pub(super) const MOTION: MotionDescription = MotionDescription {
     ],
     portrait: Some([HISTORY_R.name, RELATIVE_VELOCITY.name]),
     impact: IMPACT,
-    at_impact: Some(|r, told| description::State::new(&CAPSULE, &[r, told[1], 0.0, told[2]])),
+    at_impact: Some(|r, told| State::of([r, told[1], 0.0, told[2]]).into()),
     events: &[
         "contact-closed",
         "contact-opened",
@@ -153,9 +151,5 @@ pub(super) const MOTION_OVER_FOLDS: MotionDescription = MotionDescription {
             ],
         },
     ],
-    // Impacts are not told with the place where they happen.
-    at_impact: Some(|r, told| {
-        description::State::new(&CAPSULE_OVER_FOLDS, &[r, told[1], 0.0, told[2], f64::NAN])
-    }),
     ..MOTION
 };

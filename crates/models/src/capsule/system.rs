@@ -8,11 +8,11 @@ use capsulemap_engine::lane::{Lane, SideBySide};
 
 use super::account::Account;
 use super::description::CAPSULE;
+use super::description::CAPSULE_OVER_FOLDS;
 use super::filippov::{self, Capsule};
 use super::general::{GeneralCapsule, GeneralMode};
 use super::locomotion::Locomotion;
 use super::output::Outputs;
-use super::over_folds::CAPSULE_OVER_FOLDS;
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::printed::PrintedCapsule;

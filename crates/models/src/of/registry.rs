@@ -6,8 +6,7 @@ use std::sync::{PoisonError, RwLock};
 use capsulemap_engine::orbit::Protocol;
 
 use super::{AS_PRINTED, FILIPPOV, GENERAL, OVER_FOLDS};
-use crate::capsule::description::CAPSULE;
-use crate::capsule::over_folds::CAPSULE_OVER_FOLDS;
+use crate::capsule::description::{CAPSULE, CAPSULE_OVER_FOLDS};
 use crate::capsule::{CapsuleParameters as _, Form};
 use crate::description::{Description, Parameters};
 use crate::model::Model;

@@ -1,8 +1,7 @@
 //! What the capsule says of itself holds for it, and a parameter of one model is none of another.
 
 use capsulemap_engine::flow::Event as _;
-use capsulemap_models::capsule::description::CAPSULE;
-use capsulemap_models::capsule::over_folds::CAPSULE_OVER_FOLDS;
+use capsulemap_models::capsule::description::{CAPSULE, CAPSULE_OVER_FOLDS};
 use capsulemap_models::capsule::{
     CapsuleParameters as _, EventKind, Forces, Output, Parameter, Parameters, Resistance, State,
     Switching,

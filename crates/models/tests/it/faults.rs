@@ -1,8 +1,7 @@
 //! What does not fit together between a system and its description is told before it can be computed with.
 
 use capsulemap_engine::orbit::OrbitOf;
-use capsulemap_models::capsule::description::CAPSULE;
-use capsulemap_models::capsule::over_folds::CAPSULE_OVER_FOLDS;
+use capsulemap_models::capsule::description::{CAPSULE, CAPSULE_OVER_FOLDS};
 use capsulemap_models::capsule::{CapsuleParameters as _, Parameters, Switching};
 use capsulemap_models::description::{
     CoordinateDescription, Description, MotionDescription, Outputs, Parameter,

@@ -145,8 +145,8 @@ impl Subject<4> for CapsuleSystem<OverFolds> {
 
     fn draws(count: usize, seed: u64) -> Vec<Case<Self, 4>> {
         let (_, law) = Resistance::NAMES[seed as usize % Resistance::NAMES.len()];
-        let cases = draws::over_folds(draws::alike(count, seed, law), seed);
-        cases.iter().map(engine_case).collect()
+        let cases = draws::over_folds(draws::alike(4 * count, seed, law), seed);
+        cases.iter().take(count).map(engine_case).collect()
     }
 
     fn rich_draws(count: usize, seed: u64) -> Vec<Case<Self, 4>> {
