@@ -252,18 +252,18 @@ impl Simulate {
         given
     }
 
-    /// The options that only a capsule has, of those that are given.
+    /// The options that only a capsule has, of those that are given otherwise than usual.
     fn options_of_capsules(&self) -> impl Iterator<Item = &'static str> {
         let given = [
             ("--omega", self.omega.is_some()),
             ("--p-d", self.p_d.is_some()),
             ("--k2", self.k2.is_some()),
             ("--delta", self.delta.is_some()),
-            ("--friction-switching", self.friction_switching != Switching::Filippov),
-            ("--resistance", self.resistance != Resistance::CoulombStribeck),
-            ("--drive", self.drive != DriveKind::Harmonic),
-            ("--drive-reaction", self.drive_reaction != Reaction::None),
-            ("--release", self.release != Release::Geometry),
+            ("--friction-switching", self.friction_switching as usize > 0),
+            ("--resistance", self.resistance as usize > 0),
+            ("--drive", self.drive as usize > 0),
+            ("--drive-reaction", self.drive_reaction as usize > 0),
+            ("--release", self.release as usize > 0),
         ];
         given.into_iter().filter(|(_, is_given)| *is_given).map(|(option, _)| option)
     }
