@@ -102,7 +102,7 @@ fn conflicts(parameters: &Parameters, phase: f64) -> Vec<Remark> {
 fn as_printed(parameters: &Parameters) -> Option<Remark> {
     let is_member = parameters.shape().is_member();
     let is_printed = parameters.switching() == Switching::AsPrinted;
-    let text = "the reading `as-printed` knows a harmonic drive, one stop and even ground without folds alone; all other capsules have the reading `filippov`";
+    let text = "the reading `as-printed` knows a harmonic drive, one stop and even ground without folds alone; the family of capsules has the reading `filippov`";
     let about = parameters.stated().map(|(it, _)| it).filter(|it| parameters.is_given(*it));
     (is_member && is_printed).then(|| Remark { about: about.collect(), text: text.to_owned() })
 }
