@@ -202,7 +202,7 @@ pub fn case_of(path: &Path, index: usize) -> Result<(Case, Protocol), Failure> {
     let model = study.base.model();
     if *model != CAPSULE {
         let (path, name) = (printable(path), model.name);
-        let why = "recordings are made of motions of the capsule on even ground, and compared with them, alone";
+        let why = "recordings are compared with motions of the capsule alone, on even ground";
         return Err(Failure::request(format!("{path}: it is about the model {name}; {why}")));
     }
     let replay = Replay::new(&study, index).map_err(|error| match error {
