@@ -297,11 +297,11 @@ fn what_a_figure_cannot_show_is_reported_before_the_run() {
         &shown("map", "'period', 'outcome'"),
         &["line 11: figures[1].of: expected one output for this kind of figure, found 2"],
     );
-    assert_said(&shown("section", "'section_r'"), &["line 11: figures[1].of: does not go"]);
-    assert_said(
-        &shown("phase-portrait", "'history_r'"),
-        &["line 11: figures[1].of: expected the coordinates of both axes, found one"],
-    );
+    assert_said(&shown("basin", "'section_r'"), &["line 11: figures[1].of: does not go"]);
+    for (kind, of) in [("phase-portrait", "'history_r'"), ("section", "'section_y2'")] {
+        let one = "line 11: figures[1].of: expected the coordinates of both axes, found one";
+        assert_said(&shown(kind, of), &[one]);
+    }
     let dropped = "outputs = ['progression_speed']\n".to_owned() + &shown("map", "'work_net'");
     assert_said(&dropped, &["line 12: figures[1].of[1]: unknown output"]);
 }

@@ -39,7 +39,8 @@ impl Random {
             .map(str::to_owned)
             .collect();
         of.truncate(kind.keys().most);
-        if kind == DrawingKind::PhasePortrait && of.len() == 1 {
+        let is_plane = matches!(kind, DrawingKind::PhasePortrait | DrawingKind::Section);
+        if is_plane && of.len() == 1 {
             of.clear();
         }
         let held = self.some(&coordinates);
