@@ -76,8 +76,8 @@ fn locked_motions_are_told_by_their_folds_and_come_out_the_same_from_their_file(
 #[test]
 fn a_branch_of_a_locked_motion_ends_where_it_is_locked_no_more() {
     let dir = WorkDir::new();
-    let branch = "[[branches]]\nname = \"of seven\"\nalong = \"p_d\"\nat = { p_d = \"93 mN\" }\nfrom = \"92.5 mN\"\nto = \"94 mN\"\n";
-    dir.put("b.toml", [STEPS, &axis("p_d", "92.5 mN", "94 mN", 4), branch].concat());
+    let branch = "[[branches]]\nname = \"of seven\"\nalong = \"p_d\"\nat = { p_d = \"92.5 mN\" }\nfrom = \"92 mN\"\nto = \"93 mN\"\n";
+    dir.put("b.toml", [STEPS, &axis("p_d", "92 mN", "93 mN", 5), branch].concat());
     let continued = dir.run(&["continue", "b.toml", "--output", "b.h5"]).done().out;
     // One fold in seven cycles: -5 mm in 7/30 s, on all of the branch, which turns back at an end of its range.
     let special = continued.lines().filter(|line| line.contains("-21.4285"));

@@ -130,8 +130,8 @@ fn stays_slow(p: &Parameters) -> bool {
 /// The same capsule over random folds.
 fn over_folds_of(case: Case, random: &mut Random) -> Case {
     let mut parameters = case.parameters.of_extension(&CAPSULE_OVER_FOLDS);
-    // A motion of 1 m/s passes one to fifty of them in a period.
-    parameters[Parameter::FoldSpacing] = parameters.drive_period() * random.logarithmic(0.02, 1.0);
+    // A motion of 1 m/s passes one to ten of them in a period.
+    parameters[Parameter::FoldSpacing] = parameters.drive_period() * random.logarithmic(0.1, 1.0);
     parameters[Parameter::FoldFriction] = random.or_least(0.0, 2.0);
     parameters[Parameter::FoldForce] = random.or_least(0.0, 0.5) * parameters.normal_load();
     parameters[Parameter::FoldSharpness] = random.or_least(0.0, 10.0);

@@ -159,10 +159,19 @@ impl<M: Subject<D>, const D: usize> Certified<'_, M, D> {
         }
         // The middle one of three: a push may have next to nothing along the slowest direction, or let go a capsule that static
         // friction alone holds at the section.
-        let mut rates = [(); 3].map(|()| {
-            let answers = self.answers(&self.direction(random, 1e-5), last as usize);
+        let rate_of = |push: &[f64; D]| {
+            let answers = self.answers(push, last as usize);
             let sizes = [settled, last].map(|n| self.metric.length(&answers[n as usize]));
             (sizes[1] / sizes[0]).powf(1.0 / (last - settled))
+        };
+        // Where an orbit lies at the end of places at which the capsule rests, a push to one side stays.
+        let mut rates = [(); 3].map(|()| {
+            let push = self.direction(random, 1e-5);
+            let both = [push, push.map(|x| -x)].into_iter();
+            let rates = both.filter(|push| self.may_be_pushed(push)).map(|push| rate_of(&push));
+            rates.fold(f64::INFINITY, |near, rate| {
+                if (rate - first).abs() < (near - first).abs() { rate } else { near }
+            })
         });
         rates.sort_by(f64::total_cmp);
         Some((rates[1], first))

@@ -139,8 +139,10 @@ impl Drawn for General {
 
 /// Members over folds.
 impl Subject<4> for CapsuleSystem<OverFolds> {
+    /// Those of folds; the others are those of the family.
     fn directions() -> Vec<Parameter> {
-        Parameter::OVER_FOLDS.to_vec()
+        let of_folds = Parameter::OVER_FOLDS.iter().copied().filter(|it| it.is_of_folds());
+        of_folds.chain([Parameter::Omega, Parameter::M2]).collect()
     }
 
     fn draws(count: usize, seed: u64) -> Vec<Case<Self, 4>> {
