@@ -67,7 +67,13 @@ impl Met {
         let ours = sections(case, start, CYCLES, 1e-14);
         let size = ours.iter().flatten().map(|x| x.abs()).fold(1e-3, f64::max);
         // A motion that forgets its start so slowly, or not at all, that rounding shows, is no measure of a method.
-        let near = State { r: start.r + 1e-11 * size / p.frequency(), ..start };
+        let push = 1e-11 * size / p.frequency();
+        let near = State { r: start.r + push, ..start };
+        // A motion that is prescribed takes no push of r; over folds the place takes one.
+        let near = match p.shape().over_folds {
+            true => State { place: start.place + push / p[Parameter::FoldSpacing], ..near },
+            false => near,
+        };
         let near = sections(case, near, CYCLES, 1e-14);
         let both = ours.iter().zip(&near);
         if both.map(|(a, b)| apart(a, b, size)).fold(0.0, f64::max) > 1e-10 {

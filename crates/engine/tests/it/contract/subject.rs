@@ -21,6 +21,10 @@ pub trait Subject<const D: usize>: System<D> {
         true
     }
 
+    /// Of a hundred certified orbits, how many may lie where the map has a corner, so that small pushes are not answered as the
+    /// multipliers say.
+    const CORNERS: usize = 0;
+
     /// The size of the numbers that guard `which` is a small difference of, in the unit of the guard.
     fn terms(&self, which: usize, mode: &Self::Mode<f64>, state: &Self::State<f64>) -> f64;
 }

@@ -139,6 +139,9 @@ impl Drawn for General {
 
 /// Members over folds.
 impl Subject<4> for CapsuleSystem<OverFolds> {
+    /// Where folds hold a capsule, some orbits lie at the end of places at which friction holds it.
+    const CORNERS: usize = 2;
+
     /// Those of folds; the others are those of the family.
     fn directions() -> Vec<Parameter> {
         let of_folds = Parameter::OVER_FOLDS.iter().copied().filter(|it| it.is_of_folds());
