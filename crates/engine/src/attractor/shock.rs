@@ -121,8 +121,7 @@ impl<const D: usize> Search<'_, D> {
 
     /// How far a point is from the section point, in the units of the metric.
     fn shift(&self, point: &[f64; D]) -> [f64; D] {
-        let shift = self.metric.difference(point, &self.from);
-        std::array::from_fn(|i| shift[i] * self.metric.scales[i])
+        self.metric.scaled(&self.metric.difference(point, &self.from))
     }
 
     /// The point so far from the section point.

@@ -50,6 +50,12 @@ impl<const D: usize> Metric<D> {
         self.length(&self.difference(a, b))
     }
 
+    /// A difference in the units of the metric.
+    #[inline]
+    pub fn scaled(&self, difference: &[f64; D]) -> [f64; D] {
+        std::array::from_fn(|i| self.scales[i] * difference[i])
+    }
+
     /// A point as it is told nearest to another: in a coordinate that repeats, a whole number may differ.
     #[inline]
     pub fn beside(&self, point: &[f64; D], other: &[f64; D]) -> [f64; D] {

@@ -97,7 +97,7 @@ impl<const D: usize> Neighbourhood<D> {
             std::array::from_fn(|i| centre[i] + radius * along[i] / metric.scales[i])
         };
         let is_drawn_in = |passage: &Passage<M::Event, D>, radius: f64| {
-            let away = scaled_vector(&metric, metric.difference(&passage.end, &centre));
+            let away = metric.scaled(&metric.difference(&passage.end, &centre));
             let rests = (0..D).all(|i| !at_rest[i] || passage.end[i] == 0.0);
             rests
                 && passage.events == own.events
@@ -197,7 +197,7 @@ impl<'a, const D: usize> LinearMap<'a, D> {
 
     /// How far a point is from the orbit's, in the units of the metric.
     fn away(&self, point: &[f64; D]) -> [f64; D] {
-        scaled_vector(self.metric, self.metric.difference(point, &self.centre))
+        self.metric.scaled(&self.metric.difference(point, &self.centre))
     }
 
     /// The point in a direction on the ellipsoid of a radius.
@@ -210,7 +210,7 @@ impl<'a, const D: usize> LinearMap<'a, D> {
     /// too.
     fn leads(&self, point: &[f64; D], image: &[f64; D], own: &[f64; D]) -> bool {
         let from = self.away(point);
-        let to = scaled_vector(self.metric, self.metric.difference(image, own));
+        let to = self.metric.scaled(&self.metric.difference(image, own));
         let rest = std::array::from_fn(|i| {
             to[i] - self.map[i].iter().zip(&from).map(|(a, x)| a * x).sum::<f64>()
         });
@@ -317,11 +317,6 @@ fn lattice<const D: usize>(at_rest: &[bool; D]) -> Vec<[f64; D]> {
     let length = |it: &[f64; D]| it.iter().map(|x| x * x).sum::<f64>().sqrt();
     directions.retain(|it| length(it) > 0.0);
     directions.iter().map(|it| it.map(|x| x / length(it))).collect()
-}
-
-/// A difference in the units of a metric.
-fn scaled_vector<const D: usize>(metric: &Metric<D>, difference: [f64; D]) -> [f64; D] {
-    std::array::from_fn(|i| metric.scales[i] * difference[i])
 }
 
 /// A Jacobian in the units of a metric, without what is at rest.

@@ -13,7 +13,7 @@ const POINTS: usize = 32;
 
 /// The folds of a way.
 ///
-/// With theta = 2 pi x2 / spacing and the height w = exp(sharpness (cos theta - 1)) of a fold, which is one at its top, the resistance of
+/// With theta, 2 pi times the place of the capsule in spacings from the top of a fold on, and the height w = exp(sharpness (cos theta - 1)) of a fold, which is one at its top, the resistance of
 /// the ground is (1 + `fold_friction` w) times what it is on even ground, and the capsule is pushed by `fold_force` sin(theta) w / M, M the
 /// largest value of sin(theta) w: backward before the top, forward behind it.
 #[derive(Debug, Clone, Copy)]
