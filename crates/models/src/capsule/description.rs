@@ -90,12 +90,7 @@ const ON_EVEN_GROUND: Description = Description {
             is_optional: true,
         },
     ],
-    coordinates: &[
-        CoordinateDescription { name: "r", tag: "StartR", start: START_R },
-        CoordinateDescription { name: "y1", tag: "StartY1", start: START_Y1 },
-        CoordinateDescription { name: "x2", tag: "StartX2", start: START_X2 },
-        CoordinateDescription { name: "y2", tag: "StartY2", start: START_Y2 },
-    ],
+    coordinates: COORDINATES.split_at(4).0,
     drift: Some(2),
     on_section: &[0, 1, 3],
     section: SECTION,
@@ -127,21 +122,7 @@ const ON_EVEN_GROUND: Description = Description {
             ],
         }),
         rest_share: Some(Output::StickShare as usize),
-        key_outputs: &[
-            Output::ProgressionSpeed as usize,
-            Output::ProgressionPerCycle as usize,
-            Output::WorkNet as usize,
-            Output::WorkPositive as usize,
-            Output::FrictionLoss as usize,
-            Output::DamperLoss as usize,
-            Output::Power as usize,
-            Output::EnergyPerMetre as usize,
-            Output::CostOfTransport as usize,
-            Output::ImpactsPerCycle as usize,
-            Output::StickShare as usize,
-            Output::PeakContactForce as usize,
-            Output::LyapunovExponent as usize,
-        ],
+        key_outputs: KEY_OUTPUTS.split_at(KEY_OUTPUTS.len() - 1).0,
         event_counts: &[
             Output::ImpactsPerCycle as usize,
             Output::ForwardSlips as usize,
@@ -163,13 +144,7 @@ pub static CAPSULE_OVER_FOLDS: Description = Description {
     name: "capsule-over-folds",
     extends: Some(&CAPSULE),
     parameters: PARAMETERS,
-    coordinates: &[
-        CoordinateDescription { name: "r", tag: "StartR", start: START_R },
-        CoordinateDescription { name: "y1", tag: "StartY1", start: START_Y1 },
-        CoordinateDescription { name: "x2", tag: "StartX2", start: START_X2 },
-        CoordinateDescription { name: "y2", tag: "StartY2", start: START_Y2 },
-        CoordinateDescription { name: "place", tag: "StartPlace", start: START_PLACE },
-    ],
+    coordinates: COORDINATES,
     on_section: &[0, 1, 3, 4],
     section: &[SECTION_R, SECTION_Y1, SECTION_Y2, SECTION_PLACE],
     compared_as: &["omega r", "y1", "y2", "omega x2"],
@@ -185,26 +160,36 @@ pub static CAPSULE_OVER_FOLDS: Description = Description {
         ..signals::MOTION_OVER_FOLDS
     },
     outputs: OUTPUTS,
-    roles: Roles {
-        key_outputs: &[
-            Output::ProgressionSpeed as usize,
-            Output::ProgressionPerCycle as usize,
-            Output::FoldsPerPeriod as usize,
-            Output::WorkNet as usize,
-            Output::WorkPositive as usize,
-            Output::FrictionLoss as usize,
-            Output::DamperLoss as usize,
-            Output::Power as usize,
-            Output::EnergyPerMetre as usize,
-            Output::CostOfTransport as usize,
-            Output::ImpactsPerCycle as usize,
-            Output::StickShare as usize,
-            Output::LyapunovExponent as usize,
-        ],
-        ..ON_EVEN_GROUND.roles
-    },
+    roles: Roles { key_outputs: KEY_OUTPUTS, ..ON_EVEN_GROUND.roles },
     ..ON_EVEN_GROUND
 };
+
+/// The coordinates of a state, that of folds last.
+const COORDINATES: &[CoordinateDescription] = &[
+    CoordinateDescription { name: "r", tag: "StartR", start: START_R },
+    CoordinateDescription { name: "y1", tag: "StartY1", start: START_Y1 },
+    CoordinateDescription { name: "x2", tag: "StartX2", start: START_X2 },
+    CoordinateDescription { name: "y2", tag: "StartY2", start: START_Y2 },
+    CoordinateDescription { name: "place", tag: "StartPlace", start: START_PLACE },
+];
+
+/// The outputs that are told first, that of folds last.
+const KEY_OUTPUTS: &[usize] = &[
+    Output::ProgressionSpeed as usize,
+    Output::ProgressionPerCycle as usize,
+    Output::WorkNet as usize,
+    Output::WorkPositive as usize,
+    Output::FrictionLoss as usize,
+    Output::DamperLoss as usize,
+    Output::Power as usize,
+    Output::EnergyPerMetre as usize,
+    Output::CostOfTransport as usize,
+    Output::ImpactsPerCycle as usize,
+    Output::StickShare as usize,
+    Output::PeakContactForce as usize,
+    Output::LyapunovExponent as usize,
+    Output::FoldsPerPeriod as usize,
+];
 
 /// All outputs, those of folds last.
 const OUTPUTS: &[OutputDescription] = &{

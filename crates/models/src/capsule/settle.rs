@@ -175,7 +175,9 @@ pub fn outputs<const D: usize>(
     mean_errors::add(&mut outputs, orbit, parameters);
     if parameters.shape().over_folds && orbit.outcome == Outcome::Periodic {
         let advance = orbit.observed.advance / cycles * orbit.period as f64;
-        outputs[Output::FoldsPerPeriod] = (advance / parameters[Parameter::FoldSpacing]).round();
+        let folds = (advance / parameters[Parameter::FoldSpacing]).round();
+        // Of what is held no fold is passed, in no direction.
+        outputs[Output::FoldsPerPeriod] = if folds == 0.0 { 0.0 } else { folds };
     }
     outputs
 }

@@ -10,6 +10,7 @@ use super::folds::Folds;
 use super::ground::Ground;
 use super::springs::Springs;
 use super::state::{BACKWARD, EDGE, FRONT, FRONT_FORCE, GeneralJet, GeneralMode, REAR, REAR_FORCE};
+use super::switch::Due;
 use crate::capsule::drag::Drag;
 use crate::capsule::parameter::Parameter;
 use crate::capsule::shape::Shape;
@@ -327,10 +328,8 @@ impl<L: Lane, const FOLDS: bool> Switched<L> for GeneralCapsule<L, FOLDS> {
         zeros: &mut Zeros<L>,
         time: L,
     ) -> L {
-        match FOLDS {
-            true => self.at_place(state).obey(which, due, mode, state, zeros, time),
-            false => self.obey(which, due, mode, state, zeros, time),
-        }
+        let due = Due { here: due, mode, state, zeros, time };
+        if FOLDS { self.at_place(due.state).obey(which, due) } else { self.obey(which, due) }
     }
 
     #[inline(always)]

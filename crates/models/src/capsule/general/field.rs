@@ -19,13 +19,15 @@ impl<const FOLDS: bool> Field for GeneralCapsule<f64, FOLDS> {
     fn rates(&self, mode: &GeneralMode<f64>, time: f64, state: &State<f64>) -> State<f64> {
         let State { y1, y2, .. } = *state;
         if self.drive.is_prescribed() {
-            return self.prescribed_rates(mode, time, state);
+            let relative = self.drive.exact_motion(mode.passed, time);
+            return self.rates_of_both(mode.slip, relative, 0.0, state);
         }
         let force = self.springs.force(&mode.touched(), state);
         let drive = self.drive.exact_force(mode.passed, time);
         let acceleration = (drive - force + self.ground.pull) * self.inverse_m1;
         if self.lasts(mode) {
-            return self.rates_at_stop(mode.slip, drive, state);
+            let external = if self.reacts { 0.0 } else { drive };
+            return self.rates_of_both(mode.slip, [0.0; 2], external, state);
         }
         if mode.slip == 0.0 {
             return State { r: y1, y1: acceleration, ..State::default() };
@@ -54,33 +56,22 @@ impl<const FOLDS: bool> GeneralCapsule<f64, FOLDS> {
         self.ground.push + folds.pushes - folds.resists * resistance
     }
 
-    /// The rates where the motion of the mass relative to the capsule is prescribed.
-    fn prescribed_rates(
+    /// The rates where mass and capsule move by what acts on both, their relative velocity and acceleration known: under a force on the
+    /// mass from outside, and what acts along the ground.
+    fn rates_of_both(
         &self,
-        mode: &GeneralMode<f64>,
-        time: f64,
+        slip: f64,
+        [speed, acceleration]: [f64; 2],
+        external: f64,
         state: &State<f64>,
     ) -> State<f64> {
-        let [speed, acceleration] = self.drive.exact_motion(mode.passed, time);
-        if mode.slip == 0.0 {
+        if slip == 0.0 {
             return State { r: speed, y1: acceleration, ..State::default() };
         }
-        let push = self.ground.pull + self.exact_ground(mode.slip, state) - self.m1 * acceleration;
-        let own = push * self.share_of_mass * self.inverse_m1;
+        let along = external + self.ground.pull + self.exact_ground(slip, state);
+        let own = (along - self.m1 * acceleration) * self.inverse_m1 * self.share_of_mass;
         let (x2, place) = (state.y2, state.y2 * self.folds.per_length);
         State { r: speed, y1: own + acceleration, x2, y2: own, place }
-    }
-
-    /// The rates of a mass that stays at its rigid stop, and so moves with the capsule.
-    fn rates_at_stop(&self, slip: f64, drive: f64, state: &State<f64>) -> State<f64> {
-        if slip == 0.0 {
-            return State::default();
-        }
-        let external = if self.reacts { 0.0 } else { drive };
-        let push = external + self.ground.pull + self.exact_ground(slip, state);
-        let acceleration = push * self.inverse_m1 * self.share_of_mass;
-        let (x2, place) = (state.y2, state.y2 * self.folds.per_length);
-        State { r: 0.0, y1: acceleration, x2, y2: acceleration, place }
     }
 }
 

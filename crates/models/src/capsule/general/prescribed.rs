@@ -3,7 +3,8 @@
 use capsulemap_engine::lane::{Lane, Mask, ORDER};
 
 use super::equations::GeneralCapsule;
-use super::state::{GeneralJet, GeneralMode};
+use super::state::{FORWARD, GeneralJet, GeneralMode};
+use super::switch::Due;
 use crate::capsule::locomotion::{Jump, direction};
 use crate::capsule::state::{EventKind, State, is_event};
 
@@ -70,22 +71,18 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
         }
     }
 
-    /// Passes an edge at which the prescribed velocity jumps, where `due`: momentum along the ground stays.
+    /// Passes an edge at which the prescribed velocity jumps, `before` edges after the start of the cycle: momentum along the ground stays.
     #[inline(always)]
-    pub(super) fn jump_with_edge(
-        &self,
-        due: L::Mask,
-        before: L,
-        mode: &mut GeneralMode<L>,
-        state: &mut State<L>,
-    ) {
-        let zero = L::splat(0.0);
+    pub(super) fn jump_with_edge(&self, before: L, due: &mut Due<'_, L>) {
+        let Due { here, mode, state, zeros, .. } = due;
+        let (here, zero) = (*here, L::splat(0.0));
         let speed = self.drive.speed_after(mode.passed);
         let change = speed - self.drive.speed_after(before);
-        state.y2 = L::select(due, state.y2 - self.share_of_mass * change, state.y2);
-        state.y1 = L::select(due, state.y2 + speed, state.y1);
-        mode.slip = L::select(due, direction(state.y2), mode.slip);
-        mode.thrown = L::select(due, zero, mode.thrown);
+        state.y2 = L::select(here, state.y2 - self.share_of_mass * change, state.y2);
+        state.y1 = L::select(here, state.y2 + speed, state.y1);
+        mode.slip = L::select(here, direction(state.y2), mode.slip);
+        mode.thrown = L::select(here, zero, mode.thrown);
+        zeros[FORWARD] = L::select(here, zero, zeros[FORWARD]);
     }
 
     /// What an edge at the end of a step changes of the velocities, in a mode and a state before it.

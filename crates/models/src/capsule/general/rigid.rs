@@ -1,10 +1,11 @@
 //! A front stop that is rigid: impacts with a coefficient of restitution, and contact that lasts.
 
-use capsulemap_engine::flow::{Event, Zeros};
+use capsulemap_engine::flow::Event;
 use capsulemap_engine::lane::{Lane, Mask, Series};
 
 use super::equations::GeneralCapsule;
 use super::state::{BACKWARD, FORWARD, FRONT, GeneralJet, GeneralMode, REAR};
+use super::switch::Due;
 use crate::capsule::locomotion::{Jump, direction};
 use crate::capsule::state::{EventKind, State, is_event};
 
@@ -85,9 +86,7 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
     #[inline(always)]
     fn impact(&self, mode: &GeneralMode<L>, time: L, state: &State<L>) -> AfterImpact<L> {
         let one = L::splat(1.0);
-        let speed = state.y1 - state.y2;
-        let together = state.y2 + self.share_of_mass * speed;
-        let back = self.springs.restitution * speed;
+        let (together, back) = self.thrown_back(state);
         let y1 = together - self.share_of_capsule * back;
         let y2 = together + self.share_of_mass * back;
         let flies = GeneralMode { slip: direction(y2), ..*mode };
@@ -106,38 +105,39 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
     /// they would lose is of the second order in their time.
     #[inline(always)]
     pub(super) fn jump_at_stop(&self, event: L, state: &State<L>) -> Jump<L> {
-        let (zero, half, e) = (L::splat(0.0), L::splat(0.5), self.springs.restitution);
-        let speed = state.y1 - state.y2;
-        let left = e * speed;
+        let (zero, half, speed) = (L::splat(0.0), L::splat(0.5), state.y1 - state.y2);
+        let (together, back) = self.thrown_back(state);
         Jump {
             here: is_event(event, EventKind::ContactClosed),
-            y2: state.y2 + self.share_of_mass * (speed + left),
-            lost: half * self.m1 * self.share_of_capsule * (speed * speed - left * left),
+            y2: together + self.share_of_mass * back,
+            lost: half * self.m1 * self.share_of_capsule * (speed * speed - back * back),
             driven: [zero; 2],
         }
     }
 
-    /// Meets the rigid stop or is let go by it where `due`; returns the event there.
+    /// The velocity of mass and capsule together, which an impact does not change, and that with which it throws the mass back from
+    /// the capsule.
     #[inline(always)]
-    pub(super) fn meet_rigid_stop(
-        &self,
-        due: L::Mask,
-        mode: &mut GeneralMode<L>,
-        state: &mut State<L>,
-        zeros: &mut Zeros<L>,
-        time: L,
-    ) -> L {
-        let zero = L::splat(0.0);
-        let (opens, meets) = (due & mode.front, due & !mode.front);
+    fn thrown_back(&self, state: &State<L>) -> (L, L) {
+        let speed = state.y1 - state.y2;
+        (state.y2 + self.share_of_mass * speed, self.springs.restitution * speed)
+    }
+
+    /// Meets the rigid stop or is let go by it; returns the event there.
+    #[inline(always)]
+    pub(super) fn meet_rigid_stop(&self, due: &mut Due<'_, L>) -> L {
+        let Due { here, mode, state, zeros, time } = due;
+        let (here, zero) = (*here, L::splat(0.0));
+        let (opens, meets) = (here & mode.front, here & !mode.front);
         // What is let go by a force that falls to zero leaves with its third derivative, by one that jumps with its second.
         let of_opening = L::select(mode.let_go, L::splat(2.0), L::splat(3.0));
         zeros[FRONT] = L::select(opens, of_opening, zeros[FRONT]);
-        state.r = L::select(due, self.springs.front.at, state.r);
+        state.r = L::select(here, self.springs.front.at, state.r);
         mode.front = mode.front & !opens;
-        mode.left = (mode.left & !due) | (opens & !mode.let_go);
-        mode.let_go = mode.let_go & !due;
+        mode.left = (mode.left & !here) | (opens & !mode.let_go);
+        mode.let_go = mode.let_go & !here;
         if meets.any() {
-            let after = self.impact(mode, time, state);
+            let after = self.impact(mode, *time, state);
             state.y1 = L::select(meets, after.y1, state.y1);
             state.y2 = L::select(meets, after.y2, state.y2);
             mode.slip = L::select(meets, direction(state.y2), mode.slip);
@@ -158,15 +158,10 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
 
     /// Notes where the force of a contact that lasts has jumped below zero, so that the rigid stop lets go at once.
     #[inline(always)]
-    pub(super) fn note_let_go(
-        &self,
-        due: L::Mask,
-        mode: &mut GeneralMode<L>,
-        state: &State<L>,
-        time: L,
-    ) {
-        let pulls = self.towards_stop(mode, time, state).lt(L::splat(0.0));
-        mode.let_go = mode.let_go | (due & mode.front & pulls);
+    pub(super) fn note_let_go(&self, due: &mut Due<'_, L>) {
+        let Due { here, mode, state, time, .. } = due;
+        let pulls = self.towards_stop(mode, *time, state).lt(L::splat(0.0));
+        mode.let_go = mode.let_go | (*here & mode.front & pulls);
     }
 
     /// Puts a mass that starts at the rigid stop there, and tells where it stays; a start behind the stop is no number.

@@ -8,6 +8,17 @@ use super::state::{EDGE, FORWARD, FRONT, FRONT_FORCE, GeneralMode, REAR, REAR_FO
 use crate::capsule::locomotion::direction;
 use crate::capsule::state::{EventKind, State};
 
+/// A guard that is due, with what its event changes.
+pub(super) struct Due<'a, L: Lane> {
+    /// In which lanes.
+    pub(super) here: L::Mask,
+    pub(super) mode: &'a mut GeneralMode<L>,
+    pub(super) state: &'a mut State<L>,
+    pub(super) zeros: &'a mut Zeros<L>,
+    /// When, since the start of the cycle [s].
+    pub(super) time: L,
+}
+
 impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
     /// The mode of a state at a time, which is moved onto rest where it rests.
     pub(super) fn mode_at(&self, time: L, state: &mut State<L>) -> GeneralMode<L> {
@@ -42,25 +53,18 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
         mode
     }
 
-    /// Obeys a guard where `due`; returns the event there.
+    /// Obeys guard `which`; returns the event there.
     #[inline(always)]
-    pub(super) fn obey(
-        &self,
-        which: usize,
-        due: L::Mask,
-        mode: &mut GeneralMode<L>,
-        state: &mut State<L>,
-        zeros: &mut Zeros<L>,
-        time: L,
-    ) -> L {
+    pub(super) fn obey(&self, which: usize, mut due: Due<'_, L>) -> L {
+        let due = &mut due;
         let event = match which {
-            EDGE => self.pass_edge(due, mode, state, zeros),
-            FRONT if self.springs.is_rigid => self.meet_rigid_stop(due, mode, state, zeros, time),
-            FRONT | REAR => self.meet_stop(which, due, mode, state, zeros),
-            FRONT_FORCE | REAR_FORCE => self.turn_force(which, due, mode, zeros),
-            _ => self.obey_ground(which, due, mode, state, zeros, time),
+            EDGE => self.pass_edge(due),
+            FRONT if self.springs.is_rigid => self.meet_rigid_stop(due),
+            FRONT | REAR => self.meet_stop(which, due),
+            FRONT_FORCE | REAR_FORCE => turn_force(which, due),
+            _ => self.obey_ground(which, due),
         };
-        self.note_jumps(which, due, mode, state, zeros, time);
+        self.note_jumps(which, due);
         event
     }
 
@@ -73,15 +77,7 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
 
     /// Notes what a force that has jumped at the event of guard `which` does at once.
     #[inline(always)]
-    fn note_jumps(
-        &self,
-        which: usize,
-        due: L::Mask,
-        mode: &mut GeneralMode<L>,
-        state: &State<L>,
-        zeros: &mut Zeros<L>,
-        time: L,
-    ) {
+    fn note_jumps(&self, which: usize, due: &mut Due<'_, L>) {
         let may_jump = match which {
             // At a rigid stop the capsule feels every drive.
             EDGE => self.reacts || self.springs.is_rigid,
@@ -89,83 +85,55 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
             _ => false,
         };
         if may_jump {
-            self.note_jump(due, mode, state, time);
+            self.note_jump(due);
         }
         if self.springs.is_rigid {
-            self.note_let_go(due, mode, state, time);
+            self.note_let_go(due);
             if which != FRONT {
                 // The force on a mass that has just been let go may have jumped.
+                let Due { here, mode, zeros, .. } = due;
                 let least = zeros[FRONT].min(L::splat(2.0));
-                zeros[FRONT] = L::select(due, least, zeros[FRONT]);
-                mode.left = mode.left & !due;
+                zeros[FRONT] = L::select(*here, least, zeros[FRONT]);
+                mode.left = mode.left & !*here;
             }
         }
     }
 
     /// Notes whether the force on a capsule at rest has jumped beyond what holds it.
     #[inline(always)]
-    fn note_jump(&self, due: L::Mask, mode: &mut GeneralMode<L>, state: &State<L>, time: L) {
-        let push = self.push_at_stop(mode, time, state);
+    fn note_jump(&self, due: &mut Due<'_, L>) {
+        let Due { here, mode, state, time, .. } = due;
+        let push = self.push_at_stop(mode, *time, state);
         let thrown = L::select(self.beyond_rest(push), direction(push), L::splat(0.0));
-        mode.thrown = L::select(due & !mode.slides(), thrown, mode.thrown);
+        mode.thrown = L::select(*here & !mode.slides(), thrown, mode.thrown);
     }
 
-    /// Passes the next edge of the drive where `due`; returns the event there.
+    /// Passes the next edge of the drive; returns the event there.
     #[inline(always)]
-    fn pass_edge(
-        &self,
-        due: L::Mask,
-        mode: &mut GeneralMode<L>,
-        state: &mut State<L>,
-        zeros: &mut Zeros<L>,
-    ) -> L {
-        let before = mode.passed;
-        mode.passed = mode.passed + L::select(due, L::splat(1.0), L::splat(0.0));
+    fn pass_edge(&self, due: &mut Due<'_, L>) -> L {
+        let (here, before) = (due.here, due.mode.passed);
+        due.mode.passed = before + L::select(here, L::splat(1.0), L::splat(0.0));
         if self.drive.velocity_jumps() {
-            self.jump_with_edge(due, before, mode, state);
-            zeros[FORWARD] = L::select(due, L::splat(0.0), zeros[FORWARD]);
+            self.jump_with_edge(before, due);
         }
-        L::select(due, EventKind::DriveEdge.code(), L::splat(0.0))
+        L::select(here, EventKind::DriveEdge.code(), L::splat(0.0))
     }
 
-    /// Meets or leaves a stop where `due`; returns the event there.
+    /// Meets or leaves a stop; returns the event there.
     #[inline(always)]
-    fn meet_stop(
-        &self,
-        which: usize,
-        due: L::Mask,
-        mode: &mut GeneralMode<L>,
-        state: &mut State<L>,
-        zeros: &mut Zeros<L>,
-    ) -> L {
+    fn meet_stop(&self, which: usize, due: &mut Due<'_, L>) -> L {
+        let Due { here, mode, state, zeros, .. } = due;
+        let here = *here;
         let stop = if which == FRONT { &self.springs.front } else { &self.springs.rear };
         let (touched, beyond, events) = mode.contact(which == FRONT);
         let code = L::select(*touched, events[0].code(), events[1].code());
         // A mass that its stop has let go of before passes its place without an event.
         let code = L::select(*beyond, L::splat(0.0), code);
-        *touched = (*touched & !due) | (!*touched & !*beyond & due);
-        *beyond = *beyond & !due;
-        state.r = L::select(due, stop.at, state.r);
-        zeros[which] = L::select(due, L::splat(1.0), zeros[which]);
-        L::select(due, code, L::splat(0.0))
-    }
-
-    /// Lets go of a mass that its stop would pull, or touches one that it would push, where `due`; returns the event there.
-    #[inline(always)]
-    fn turn_force(
-        &self,
-        which: usize,
-        due: L::Mask,
-        mode: &mut GeneralMode<L>,
-        zeros: &mut Zeros<L>,
-    ) -> L {
-        let (touched, beyond, events) = mode.contact(which == FRONT_FORCE);
-        let code = L::select(*touched, events[0].code(), events[1].code());
-        let (lets_go, touches) = (due & *touched, due & *beyond);
-        *touched = (*touched & !lets_go) | touches;
-        *beyond = (*beyond & !touches) | lets_go;
-        zeros[which] = L::select(due, L::splat(1.0), zeros[which]);
-        L::select(due, code, L::splat(0.0))
+        *touched = (*touched & !here) | (!*touched & !*beyond & here);
+        *beyond = *beyond & !here;
+        state.r = L::select(here, stop.at, state.r);
+        zeros[which] = L::select(here, L::splat(1.0), zeros[which]);
+        L::select(here, code, L::splat(0.0))
     }
 
     /// Lets go of a mass at the start that its stop would pull.
@@ -177,29 +145,22 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
         mode.rear = mode.rear & !mode.beyond_rear;
     }
 
-    /// Leaves rest, comes to rest or turns round where `due`; returns the event there.
+    /// Leaves rest, comes to rest or turns round; returns the event there.
     #[inline(always)]
-    fn obey_ground(
-        &self,
-        which: usize,
-        due: L::Mask,
-        mode: &mut GeneralMode<L>,
-        state: &mut State<L>,
-        zeros: &mut Zeros<L>,
-        time: L,
-    ) -> L {
+    fn obey_ground(&self, which: usize, due: &mut Due<'_, L>) -> L {
+        let Due { here, mode, state, zeros, time } = due;
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let side = if which == FORWARD { one } else { -one };
         let slides = mode.slides();
-        let (leaves, stops) = (due & !slides, due & slides);
+        let (leaves, stops) = (*here & !slides, *here & slides);
         state.y2 = L::select(stops, zero, state.y2);
         state.y1 = L::select(stops & self.lasts(mode), zero, state.y1);
         if self.drive.is_prescribed() {
-            self.place_mass(stops, mode, time, state);
+            self.place_mass(stops, mode, *time, state);
         }
         // One stored force decides between rest and reversal; friction cannot push the capsule on in
         // the direction it was brought to rest from.
-        let against = -(mode.slip * self.push_at_stop(mode, time, state));
+        let against = -(mode.slip * self.push_at_stop(mode, *time, state));
         let reverses = stops & self.ground.towards(-mode.slip).break_away.lt(against);
         let sticks = stops & !reverses;
         let onset = if which == FORWARD { EventKind::SlipForward } else { EventKind::SlipBackward };
@@ -215,4 +176,18 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
         let code = L::select(reverses, EventKind::Reversal.code(), code);
         L::select(sticks, EventKind::Stick.code(), code)
     }
+}
+
+/// Lets go of a mass that its stop would pull, or touches one that it would push; returns the event there.
+#[inline(always)]
+fn turn_force<L: Lane>(which: usize, due: &mut Due<'_, L>) -> L {
+    let Due { here, mode, zeros, .. } = due;
+    let here = *here;
+    let (touched, beyond, events) = mode.contact(which == FRONT_FORCE);
+    let code = L::select(*touched, events[0].code(), events[1].code());
+    let (lets_go, touches) = (here & *touched, here & *beyond);
+    *touched = (*touched & !lets_go) | touches;
+    *beyond = (*beyond & !touches) | lets_go;
+    zeros[which] = L::select(here, L::splat(1.0), zeros[which]);
+    L::select(here, code, L::splat(0.0))
 }
