@@ -70,7 +70,14 @@ fn member_sets() -> Vec<(&'static str, Vec<Parameters>)> {
     };
     vec![
         ("grid, as a member", with(&|p| p[Parameter::Load] = 0.0)),
-        ("grid, square wave", with(&|p| p.drive_by(DriveKind::Square))),
+        (
+            "grid, square wave",
+            with(&|p| {
+                p.drive_by(DriveKind::Square);
+                // One that pushed alone would have a mean force that nothing holds.
+                p[Parameter::PLow] = -p[Parameter::Pd];
+            }),
+        ),
         (
             "grid, two harmonics",
             with(&|p| {
