@@ -22,7 +22,7 @@ pub use example::Belt;
 /// The mass on the belt as a model.
 ///
 /// Behind the door, so that its lanes are compiled here and not in each crate that names it.
-pub static BELT: &dyn Model = &Of::<Belt<f64>, 1>::model();
+pub static BELT: &dyn Model = &Of::<Belt<f64>, 1>::described(&MASS_ON_BELT);
 
 const DISPLACEMENT: Quantity = number("history_x", "displacement");
 const VELOCITY: Quantity = number("history_v", "velocity");
@@ -118,7 +118,7 @@ fn of_description(parameters: &Parameters) -> [f64; 4] {
 }
 
 impl Face<1> for Belt<f64> {
-    fn description() -> &'static Description {
+    fn description(&self) -> &'static Description {
         &MASS_ON_BELT
     }
 
@@ -136,7 +136,7 @@ impl Face<1> for Belt<f64> {
         [0, 1].map(|at| state.values()[at])
     }
 
-    fn told(state: &[f64; 2]) -> State {
+    fn told(&self, state: &[f64; 2]) -> State {
         State::new(&MASS_ON_BELT, state)
     }
 

@@ -24,7 +24,7 @@ pub use example::Impactor;
 /// The impact oscillator as a model.
 ///
 /// Behind the door, so that its lanes are compiled here and not in each crate that names it.
-pub static IMPACT: &dyn Model = &Of::<Impactor<f64>, 2>::model();
+pub static IMPACT: &dyn Model = &Of::<Impactor<f64>, 2>::described(&IMPACT_OSCILLATOR);
 
 const DISPLACEMENT: Quantity = number("history_x", "displacement");
 const VELOCITY: Quantity = number("history_v", "velocity");
@@ -126,7 +126,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
 };
 
 impl Face<2> for Impactor<f64> {
-    fn description() -> &'static Description {
+    fn description(&self) -> &'static Description {
         &IMPACT_OSCILLATOR
     }
 
@@ -144,7 +144,7 @@ impl Face<2> for Impactor<f64> {
         state.section().array()
     }
 
-    fn told(state: &[f64; 2]) -> State {
+    fn told(&self, state: &[f64; 2]) -> State {
         State::new(&IMPACT_OSCILLATOR, state)
     }
 

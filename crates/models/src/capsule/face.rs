@@ -18,7 +18,7 @@ use crate::face::Face;
 use crate::motion::{Case, Orbit, Sensitivity};
 
 impl<R: Reading<D>, const D: usize> Face<D> for CapsuleSystem<R> {
-    fn description() -> &'static Description {
+    fn description(&self) -> &'static Description {
         R::description()
     }
 
@@ -34,7 +34,7 @@ impl<R: Reading<D>, const D: usize> Face<D> for CapsuleSystem<R> {
         state.into()
     }
 
-    fn told(state: &State<f64>) -> description::State {
+    fn told(&self, state: &State<f64>) -> description::State {
         let place = state.place - state.place.floor();
         let all = [state.r, state.y1, state.x2, state.y2, place];
         let model = R::description();
@@ -61,7 +61,7 @@ impl<R: Reading<D>, const D: usize> Face<D> for CapsuleSystem<R> {
             EventKind::Reversal => vec![sliding],
             _ => vec![before],
         };
-        states.iter().map(Self::told).collect()
+        states.iter().map(|it| self.told(it)).collect()
     }
 
     fn sums(observed: &Account<f64>) -> Vec<f64> {

@@ -3,11 +3,10 @@
 use capsulemap_engine::flow::Event;
 
 use super::Face;
-use crate::description::{Parameter, Parameters};
+use crate::description::{Description, Parameter, Parameters};
 
 /// What does not fit together in the description of a system, or between the two, each in a sentence; nothing where all does.
-pub fn faults<M: Face<D>, const D: usize>() -> Vec<String> {
-    let description = M::description();
+pub fn faults<M: Face<D>, const D: usize>(description: &'static Description) -> Vec<String> {
     let faults = description.faults(D);
     if !faults.is_empty() {
         // What else is asked here goes by the places that these are about.
@@ -23,7 +22,7 @@ pub fn faults<M: Face<D>, const D: usize>() -> Vec<String> {
 
 /// Whether the system has another name for a parameter, or another value: a list that is in another order.
 fn fault_of_parameter<M: Face<D>, const D: usize>(described: Parameter) -> Option<String> {
-    let mut parameters = Parameters::of(M::description());
+    let mut parameters = Parameters::of(described.model());
     // Every range of allowed values has this one, and no other parameter is likely to have it.
     let value = 2.0 * parameters[described].abs() + 0.8125;
     parameters[described] = value;

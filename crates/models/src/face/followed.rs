@@ -97,22 +97,23 @@ pub fn simulate<M: Face<D>, const D: usize>(
     most: SimulationSize,
     tolerance: f64,
 ) -> Simulation {
+    let system = M::of(&case.parameters, case.section_phase);
     let Followed { section, events, failure } = followed::<M, D>(case, most, tolerance);
     let section = section.into_iter().map(|it| Sample {
         cycle: it.cycle,
         time: it.time,
-        state: M::told(&it.state),
+        state: system.told(&it.state),
         sums: M::sums(&it.observed),
         counts: M::counts(&it.observed),
     });
     let events = events.into_iter().map(|it| Event {
         time: it.time,
         number: it.event.number(),
-        state: M::told(&it.state),
+        state: system.told(&it.state),
     });
     Simulation {
         section: section.collect(),
         events: events.collect(),
-        failure: failure.map(|it| it.map(|state| M::told(&state))),
+        failure: failure.map(|it| it.map(|state| system.told(&state))),
     }
 }

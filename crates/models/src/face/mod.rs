@@ -20,7 +20,7 @@ pub use stretch::{arc, samples};
 /// A system with a face.
 pub trait Face<const D: usize>: System<D> + 'static {
     /// What it says of itself.
-    fn description() -> &'static Description;
+    fn description(&self) -> &'static Description;
 
     /// The system with these parameters, whose drive is at `phase` at the section [rad].
     fn of(parameters: &Parameters, phase: f64) -> Self;
@@ -32,7 +32,7 @@ pub trait Face<const D: usize>: System<D> + 'static {
     fn state(state: &State) -> Self::State<f64>;
 
     /// The same, told by the description.
-    fn told(state: &Self::State<f64>) -> State;
+    fn told(&self, state: &Self::State<f64>) -> State;
 
     /// What depends on time alone, as the force of a drive, `h` after the beginning of a step: what is kept of a motion beside its
     /// coordinates.
@@ -50,7 +50,7 @@ pub trait Face<const D: usize>: System<D> + 'static {
         _event: Self::Event,
         [before, after]: [Self::State<f64>; 2],
     ) -> Vec<State> {
-        let mut states = vec![Self::told(&before), Self::told(&after)];
+        let mut states = vec![self.told(&before), self.told(&after)];
         states.dedup();
         states
     }
@@ -92,7 +92,7 @@ pub trait Face<const D: usize>: System<D> + 'static {
     ///
     /// Unless a model has it another way: none is a sum.
     fn per_cycle(&self, _observed: &Self::Observer, _cycles: f64) -> Outputs {
-        Outputs::unknown(Self::description())
+        Outputs::unknown(self.description())
     }
 
     /// The derivatives in a parameter of the periodic orbit through a section point, of so many cycles.
@@ -118,13 +118,13 @@ pub fn orbit_of<M: Face<D>, const D: usize>(
     let orbit = M::judged(orbit, case, protocol);
     let orbit =
         OrbitOf::<M, D> { failure: orbit.failure.map(|it| explained::<M, D>(it, case)), ..orbit };
-    let (orbit, history) = match history::<M, D>(&orbit, case, protocol) {
+    let (orbit, history) = match history(&system, &orbit, case, protocol) {
         Ok(history) => (orbit, history),
         Err(failure) => (failed(&system, orbit, failure), Vec::new()),
     };
     let outputs = match orbit.failure {
         None => system.outputs(&orbit, protocol.recurrence),
-        Some(_) => Outputs::unknown(M::description()),
+        Some(_) => Outputs::unknown(system.description()),
     };
     Orbit {
         outcome: orbit.outcome,
@@ -135,8 +135,8 @@ pub fn orbit_of<M: Face<D>, const D: usize>(
         section: orbit.section.into_iter().map(Section::from).collect(),
         impacts: M::impacts(&orbit.observed),
         history,
-        end: M::told(&orbit.end),
-        failure: orbit.failure.map(|it| it.map(|state| M::told(&state))),
+        end: system.told(&orbit.end),
+        failure: orbit.failure.map(|it| it.map(|state| system.told(&state))),
     }
 }
 
@@ -156,15 +156,16 @@ fn explained<M: Face<D>, const D: usize>(
 /// The history of a motion where the protocol asks for it: from the start of its case, or from where it has settled, with what
 /// drifts at zero.
 fn history<M: Face<D>, const D: usize>(
+    system: &M,
     orbit: &OrbitOf<M, D>,
     case: &Case,
     protocol: &Protocol,
 ) -> Result<Vec<Vec<f64>>, orbit::Failure<M::State<f64>>> {
-    let is_kept = orbit.failure.is_none() && M::description().keeps_histories();
+    let is_kept = orbit.failure.is_none() && system.description().keeps_histories();
     let Some(span) = protocol.history.filter(|_| is_kept) else {
         return Ok(Vec::new());
     };
-    let settled = M::told(&orbit.end).without_drift();
+    let settled = system.told(&orbit.end).without_drift();
     let on = Case::at_section(case.parameters.clone(), settled, case.section_phase);
     let from = if span.from_start { case } else { &on };
     Ok(samples::<M, D>(from, span, protocol.tolerance)?.histories)
@@ -222,7 +223,7 @@ pub fn follow<M: Face<D>, const D: usize>(request: &Request) -> Result<Found, No
     Ok(found.map(
         |value, orbit: Option<OrbitOf<M, D>>| match orbit {
             Some(orbit) => system.with(M::which(*along), value).outputs(&orbit, recurrence),
-            None => Outputs::unknown(M::description()),
+            None => Outputs::unknown(system.description()),
         },
         Into::into,
     ))

@@ -62,7 +62,7 @@ pub fn samples<M: Face<D>, const D: usize>(
     let single = system.single();
     let (period, per_cycle) = (single.period(), span.per_cycle);
     let mut trajectory = Trajectory::begun(&single, start, begins, tolerance);
-    let mut stretch = Stretch::of(M::description());
+    let mut stretch = Stretch::of(system.description());
     let ends_at_section = begins == 0.0;
     let wanted = span.samples() - usize::from(ends_at_section);
     let mut times = EvenTimes { per_cycle, period, begins, cycles: 0, next: 0 };
@@ -75,7 +75,7 @@ pub fn samples<M: Face<D>, const D: usize>(
                     return;
                 }
                 let h = (at - step.start).max(0.0);
-                let state = M::told(&single.at(&step.jet, h));
+                let state = system.told(&single.at(&step.jet, h));
                 stretch.push(times.since_start(), &state, &system.driven(&single, step, h));
                 times.advance();
             }
@@ -84,9 +84,9 @@ pub fn samples<M: Face<D>, const D: usize>(
     }
     if ends_at_section {
         // What depends on time alone is at the last section what it was at the first.
-        let coordinates = M::description().coordinates.len();
+        let coordinates = system.description().coordinates.len();
         let driven: Vec<f64> = stretch.histories[coordinates..].iter().map(|it| it[0]).collect();
-        stretch.push(times.since_start(), &M::told(&trajectory.state()), &driven);
+        stretch.push(times.since_start(), &system.told(&trajectory.state()), &driven);
     }
     Ok(stretch)
 }
@@ -113,7 +113,7 @@ struct Following<'a, M: Face<D>, const D: usize> {
 impl<M: Face<D>, const D: usize> Following<'_, M, D> {
     /// Adds the instant `h` after the beginning of a step.
     fn put(&mut self, step: &Step<f64, M::Single>, h: f64) {
-        let state = M::told(&self.single.at(&step.jet, h));
+        let state = self.system.told(&self.single.at(&step.jet, h));
         let driven = self.system.driven(self.single, step, h);
         self.stretch.push(step.start + h - self.begins, &state, &driven);
     }
@@ -138,7 +138,7 @@ impl<M: Face<D>, const D: usize> Following<'_, M, D> {
             self.stretch.push(time, &state, &driven);
         }
         if event.is_timed() {
-            self.stretch.push(time, &M::told(&after), driven_after);
+            self.stretch.push(time, &self.system.told(&after), driven_after);
         }
     }
 }
@@ -172,7 +172,7 @@ pub fn arc<M: Face<D>, const D: usize>(
     };
     let between = duration / f64::from(count);
     let mut trajectory = Trajectory::begun(&single, start, begins, tolerance);
-    let stretch = Stretch::of(M::description());
+    let stretch = Stretch::of(system.description());
     let mut following =
         Following { system: &system, single: &single, stretch, begins, pending: None };
     let mut next = 0;
@@ -194,6 +194,6 @@ pub fn arc<M: Face<D>, const D: usize>(
         driven = system.driven(&single, step, step.length);
     })?;
     following.after_event(trajectory.state(), &driven);
-    following.stretch.push(duration, &M::told(&trajectory.state()), &driven);
+    following.stretch.push(duration, &system.told(&trajectory.state()), &driven);
     Ok(following.stretch)
 }

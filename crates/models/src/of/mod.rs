@@ -20,6 +20,7 @@ use capsulemap_engine::orbit::passage::{Integrator, OneByOne};
 use capsulemap_engine::orbit::return_map::{Cycles, append_points, observed};
 use capsulemap_engine::orbit::{Batch, KnownOrbits, Machine, Protocol, Underway, settle_all};
 
+use crate::capsule::description::{CAPSULE, CAPSULE_OVER_FOLDS};
 use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, General, OverFolds};
 use crate::description::{Description, Outputs, Parameter, Parameters, Section};
 use crate::face::{self, Face, engine_case, system};
@@ -37,25 +38,28 @@ pub use registry::{
 };
 
 /// A system with a face, as a model.
-pub struct Of<M, const D: usize>(PhantomData<fn() -> M>);
+pub struct Of<M, const D: usize> {
+    description: &'static Description,
+    systems: PhantomData<fn() -> M>,
+}
 
 impl<M, const D: usize> Of<M, D> {
-    /// The model of systems of this kind.
-    pub const fn model() -> Self {
-        Of(PhantomData)
+    /// The model of systems of this kind that are described so.
+    pub const fn described(description: &'static Description) -> Self {
+        Of { description, systems: PhantomData }
     }
 }
 
-impl<M: Face<D>, const D: usize> Debug for Of<M, D> {
+impl<M, const D: usize> Debug for Of<M, D> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Of").field(&M::description().name).finish()
+        f.debug_tuple("Of").field(&self.description.name).finish()
     }
 }
 
-static FILIPPOV: Of<CapsuleSystem<Filippov>, 3> = Of::model();
-static AS_PRINTED: Of<CapsuleSystem<AsPrinted>, 3> = Of::model();
-static GENERAL: Of<CapsuleSystem<General>, 3> = Of::model();
-static OVER_FOLDS: Of<CapsuleSystem<OverFolds>, 4> = Of::model();
+static FILIPPOV: Of<CapsuleSystem<Filippov>, 3> = Of::described(&CAPSULE);
+static AS_PRINTED: Of<CapsuleSystem<AsPrinted>, 3> = Of::described(&CAPSULE);
+static GENERAL: Of<CapsuleSystem<General>, 3> = Of::described(&CAPSULE);
+static OVER_FOLDS: Of<CapsuleSystem<OverFolds>, 4> = Of::described(&CAPSULE_OVER_FOLDS);
 
 /// Section points as the engine has them.
 fn arrays<const D: usize>(points: &[Section]) -> Vec<[f64; D]> {
@@ -92,11 +96,11 @@ type LinearOf<M, const D: usize> = Vec<Option<Linearised<<M as System<D>>::Event
 
 impl<M: Face<D>, const D: usize> Model for Of<M, D> {
     fn description(&self) -> &'static Description {
-        M::description()
+        self.description
     }
 
     fn faults(&self) -> Vec<String> {
-        face::faults::<M, D>()
+        face::faults::<M, D>(self.description)
     }
 
     fn remarks(&self, parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
@@ -252,7 +256,8 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
     }
 
     fn arc(&self, case: &Case, count: u32, tolerance: f64) -> Result<Stretch, Failure> {
-        face::arc::<M, D>(case, count, tolerance).map_err(|it| it.map(|state| M::told(&state)))
+        let system = M::of(&case.parameters, case.section_phase);
+        face::arc::<M, D>(case, count, tolerance).map_err(|it| it.map(|state| system.told(&state)))
     }
 
     fn section_points(

@@ -66,7 +66,7 @@ static WRONG: Description = Description {
 };
 
 impl Face<2> for Duffing<f64> {
-    fn description() -> &'static Description {
+    fn description(&self) -> &'static Description {
         &WRONG
     }
 
@@ -84,7 +84,7 @@ impl Face<2> for Duffing<f64> {
         state.section().array()
     }
 
-    fn told(state: &[f64; 2]) -> State {
+    fn told(&self, state: &[f64; 2]) -> State {
         State::new(&WRONG, state)
     }
 
@@ -96,7 +96,7 @@ impl Face<2> for Duffing<f64> {
 #[test]
 fn a_system_and_its_description_have_the_same_parameters_and_events() {
     assert_eq!(
-        faults::<Duffing<f64>, 2>(),
+        faults::<Duffing<f64>, 2>(&WRONG),
         [
             "the system has 0 events, and the description names 1",
             "c is \"c\" of the system, which another parameter sets",
