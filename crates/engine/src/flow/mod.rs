@@ -19,6 +19,7 @@ pub use cycle::{Reason, STEPS_PER_CYCLE, cycle};
 pub use metric::Metric;
 pub use motion::{Breakdown, Motion};
 pub use observer::Observer;
+pub use pace::longest_step;
 pub use step::Step;
 pub use stop::Stop;
 pub use switched::{Event, Field, MAX_GUARDS, NoEvent, Stroboscopic, Switched, Zeros};

@@ -5,7 +5,6 @@ use std::fmt;
 use crate::lane::{Lane, Mask, Series, SideBySide, series};
 
 use super::guard::{divide_by_time, first_fall, stays_positive};
-use super::pace::longest_step;
 use super::step::Step;
 use super::step_end::StepEnd;
 use super::stop;
@@ -119,9 +118,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     pub fn step(&mut self, system: &S, until: L, tolerance: f64, step: &mut Step<L, S>) {
         system.expand(&self.mode, self.time, &self.state, &mut step.jet);
         let left = until - self.time;
-        let [first, second] = system.pace(&step.jet);
-        let allowed = longest_step(first, tolerance).min(longest_step(second, tolerance));
-        let allowed = allowed.min(left.plain());
+        let allowed = system.longest_step(&step.jet, tolerance).min(left.plain());
         let length = system.step_bound(&self.mode, &step.jet, allowed, tolerance);
         let end = self.locate(system, step, length);
 

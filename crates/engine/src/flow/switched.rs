@@ -5,6 +5,8 @@ use std::fmt::Debug;
 
 use crate::lane::{Lane, Mask, Series, series};
 
+use super::pace::longest_step;
+
 /// The most guards a system may have, the section of an autonomous one included.
 pub const MAX_GUARDS: usize = 8;
 
@@ -108,6 +110,13 @@ pub trait Switched<L: Lane> {
     /// They must contain every coordinate whose rate depends on the state in another way than by a constant
     /// factor; a coordinate that is the integral of one of them may be left out.
     fn pace<'a>(&self, jet: &'a Self::Jet) -> [&'a Series<L>; 2];
+
+    /// The longest step that the series describe to `tolerance`; unless a system has more of them, those of its pace.
+    #[inline(always)]
+    fn longest_step(&self, jet: &Self::Jet, tolerance: f64) -> L::Plain {
+        let [first, second] = self.pace(jet);
+        longest_step(first, tolerance).min(longest_step(second, tolerance))
+    }
 
     /// The longest step within `length` that the series of `pace` describe to `tolerance`.
     ///
