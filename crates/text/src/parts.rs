@@ -1,0 +1,259 @@
+//! The parts of a text one by one: frictions, switches, pulses, rates, events, the section, states and parameters.
+
+use toml::de::DeTable;
+
+use crate::entries::{Entry, Pieces, Value, entries, needed};
+use crate::graph::{Graph, Id};
+use crate::linear::linear;
+use crate::text::{Bound, Event, MOST_OF_A_KIND, Parameter, Pulse, Section, State, Switch};
+use crate::values::Values;
+use crate::written::{Source, hint, place_of};
+
+pub(crate) fn values_of_frictions<'a>(
+    values: &mut Values<'a, '_>,
+    pieces: &Pieces<'_, 'a>,
+) -> Vec<Option<Id>> {
+    for (place, it) in pieces.frictions.iter().enumerate() {
+        let Some(table) = values.source.table(it.value, &it.name) else { continue };
+        let written = needed(values.source, table, it, "of");
+        values.of_frictions[place] = written.and_then(|it| values.value(&it));
+    }
+    values.of_frictions.clone()
+}
+
+/// The size of a friction that slides, and what it can be at rest.
+pub(crate) fn friction<'a>(values: &mut Values<'a, '_>, it: &Entry<'_, 'a>) -> Option<(Id, Id)> {
+    let source = values.source;
+    let table = it.value.get_ref().as_table()?;
+    source.only(table, &format!("[system.friction.{}]", it.name), &["of", "sliding", "holds"]);
+    let sliding = needed(source, table, it, "sliding").and_then(|it| values.value(&it));
+    let holds = match table.get("holds") {
+        Some(value) => {
+            let written = source.expression(value, "holds");
+            written.and_then(|it| values.value(&it))
+        }
+        None => sliding,
+    };
+    Some((sliding?, holds?))
+}
+
+pub(crate) fn switch<'a>(values: &mut Values<'a, '_>, it: &Entry<'_, 'a>) -> Option<Switch> {
+    let source = values.source;
+    let table = source.table(it.value, &it.name)?;
+    source.only(table, &format!("[system.switch.{}]", it.name), &["where", "enters"]);
+    let enters = table.get("enters").and_then(|it| source.string(it, "enters"));
+    let written = match table.get("where") {
+        Some(value) => source.string(value, "where"),
+        None => needed(source, table, it, "where"),
+    };
+    let side = values.excess(&written?)?;
+    let bound = bound(&mut values.graph, side);
+    let enters = enters.map(|it| it.characters);
+    Some(Switch { name: it.name.clone(), side, bound, enters })
+}
+
+/// The only state on which a surface depends, with its value there; none where there are more, or it depends on others, too.
+fn bound(graph: &mut Graph, surface: Id) -> Option<Bound> {
+    let it = linear(graph, surface)?;
+    let [(state, factor)] = it.factors[..] else { return None };
+    let value = graph.div(it.constant, factor);
+    Some(Bound { state, value: graph.neg(value) })
+}
+
+pub(crate) fn pulses<'a>(
+    values: &mut Values<'a, '_>,
+    pieces: &Pieces<'_, 'a>,
+) -> Option<Vec<Pulse>> {
+    let source = values.source;
+    let mut pulses = Vec::new();
+    for it in &pieces.pulses {
+        let Some(table) = source.table(it.value, &it.name) else { continue };
+        source.only(table, &format!("[system.pulse.{}]", it.name), &["period", "duty"]);
+        let mut constant = |key: &str| {
+            let written = needed(source, table, it, key);
+            written.and_then(|it| values.constant(&it, key))
+        };
+        let (period, duty) = (constant("period"), constant("duty"));
+        let pulse = period.zip(duty);
+        pulses.push(pulse.map(|(period, duty)| Pulse { name: it.name.clone(), duty, period }));
+    }
+    pulses.into_iter().collect()
+}
+
+/// The rate of each state, in the order of the states.
+pub(crate) fn rates<'a>(
+    values: &mut Values<'a, '_>,
+    pieces: &Pieces<'_, 'a>,
+    table: &DeTable<'a>,
+) -> Option<Vec<Id>> {
+    let source = values.source;
+    let entries = entries(source, table, "rates");
+    for it in &entries {
+        if pieces.states.iter().all(|state| state.name != it.name) {
+            let states = pieces.states.iter().map(|it| it.name.as_str());
+            let states: Vec<&str> = states.collect();
+            let message = format!("there is no state {:?}{}", it.name, hint(&it.name, states));
+            source.fault(it.at, message);
+        }
+    }
+    let mut rates = Vec::new();
+    for state in &pieces.states {
+        let Some(entry) = entries.iter().find(|it| it.name == state.name) else {
+            source.fault(state.at, format!("the state {} needs a rate", state.name));
+            rates.push(None);
+            continue;
+        };
+        let written = source.expression(entry.value, &entry.name);
+        rates.push(written.and_then(|it| values.value(&it)));
+    }
+    rates.into_iter().collect()
+}
+
+pub(crate) fn events<'a>(
+    values: &mut Values<'a, '_>,
+    pieces: &Pieces<'_, 'a>,
+    table: &DeTable<'a>,
+) -> Option<Vec<Event>> {
+    let source = values.source;
+    let Some(value) = table.get("events") else { return Some(Vec::new()) };
+    let Some(array) = value.get_ref().as_array() else {
+        source.fault(value.span().start, "events are a list: write [[system.events]]");
+        return None;
+    };
+    let mut events = Vec::new();
+    for (place, it) in array.iter().enumerate() {
+        if place == MOST_OF_A_KIND {
+            source.fault(it.span().start, format!("more than {MOST_OF_A_KIND} events"));
+            return None;
+        }
+        events.push(event(values, pieces, it));
+    }
+    events.into_iter().collect()
+}
+
+fn event<'a>(
+    values: &mut Values<'a, '_>,
+    pieces: &Pieces<'_, 'a>,
+    value: &Value<'a>,
+) -> Option<Event> {
+    let source = values.source;
+    let table = source.table(value, "an event")?;
+    source.only(table, "[[system.events]]", &["name", "while", "reset"]);
+    let entry = Entry { name: "an event".into(), at: value.span().start, value };
+    let name = needed(source, table, &entry, "name");
+    let condition = needed(source, table, &entry, "while");
+    let lasts = condition.and_then(|it| values.excess(&it));
+    let mut reset = Some(Vec::new());
+    for it in entries(source, table, "reset") {
+        let state = pieces.states.iter().position(|state| state.name == it.name);
+        let written = source.expression(it.value, &it.name);
+        let value = written.and_then(|it| values.value(&it));
+        match (state, value, &mut reset) {
+            (Some(state), Some(value), Some(known)) => known.push((state, value)),
+            (None, ..) => {
+                let states: Vec<&str> = pieces.states.iter().map(|it| it.name.as_str()).collect();
+                let message = format!("there is no state {:?}{}", it.name, hint(&it.name, states));
+                source.fault(it.at, message);
+                reset = None;
+            }
+            _ => reset = None,
+        }
+    }
+    let lasts = lasts?;
+    let bound = bound(&mut values.graph, lasts);
+    Some(Event { name: name?.characters, lasts, bound, reset: reset? })
+}
+
+pub(crate) fn section<'a>(
+    values: &mut Values<'a, '_>,
+    pieces: &Pieces<'_, 'a>,
+    table: &DeTable<'a>,
+) -> Option<Section> {
+    const FORMS: &str = "{ every = \"2*pi/w\" } or { when = \"v falls\", within = 100.0 }";
+    let source = values.source;
+    let Some(value) = table.get("section") else {
+        source.fault(place_of(table), format!("[system] needs a section, {FORMS}"));
+        return None;
+    };
+    let section = source.table(value, "section")?;
+    source.only(section, "section", &["every", "when", "within"]);
+    let at = value.span().start;
+    match [section.get("every"), section.get("when"), section.get("within")] {
+        [Some(every), None, None] => {
+            let written = source.expression(every, "every")?;
+            Some(Section::Every(values.constant(&written, "every")?))
+        }
+        [None, Some(when), Some(within)] => {
+            let when = source.string(when, "when")?;
+            let within = source.expression(within, "within")?;
+            let within = values.constant(&within, "within")?;
+            if !pieces.pulses.is_empty() {
+                source.fault(at, "a system with pulses has a section { every = \"...\" }");
+            }
+            let mut words = when.characters.split_whitespace();
+            let state = words.next().unwrap_or_default();
+            let place = pieces.states.iter().position(|it| it.name == state);
+            let falls = match words.next() {
+                Some("falls") => Some(true),
+                Some("rises") => Some(false),
+                _ => None,
+            };
+            let (Some(state), Some(falls), None) = (place, falls, words.next()) else {
+                let states: Vec<&str> = pieces.states.iter().map(|it| it.name.as_str()).collect();
+                let message = format!(
+                    "a section is where a state falls or rises through zero, as \"v falls\"{}",
+                    hint(state, states)
+                );
+                source.fault(when.at, message);
+                return None;
+            };
+            Some(Section::When { state, falls, within })
+        }
+        _ => {
+            source.fault(at, format!("a section is {FORMS}"));
+            None
+        }
+    }
+}
+
+/// The state that drifts; none within where none does, none where it is no state.
+#[allow(clippy::option_option)]
+pub(crate) fn drift<'a>(
+    source: &Source<'a>,
+    pieces: &Pieces<'_, 'a>,
+    table: &DeTable<'a>,
+) -> Option<Option<usize>> {
+    let Some(value) = table.get("drift") else { return Some(None) };
+    let name = source.string(value, "drift")?;
+    let place = pieces.states.iter().position(|it| it.name == name.characters);
+    if place.is_none() {
+        let states: Vec<&str> = pieces.states.iter().map(|it| it.name.as_str()).collect();
+        let hint = hint(&name.characters, states);
+        source.fault(name.at, format!("there is no state {:?}{hint}", name.characters));
+    }
+    place.map(Some)
+}
+
+pub(crate) fn state<'a>(source: &Source<'a>, it: &Entry<'_, 'a>) -> Option<State> {
+    let unit = source.string(it.value, "the unit of a state")?;
+    Some(State { name: it.name.clone(), unit: unit.characters })
+}
+
+pub(crate) fn parameter<'a>(source: &Source<'a>, it: &Entry<'_, 'a>) -> Option<Parameter> {
+    let Some(table) = it.value.get_ref().as_table() else {
+        let default = source.number(it.value, &it.name)?;
+        return Some(Parameter { name: it.name.clone(), default, unit: None, meaning: None });
+    };
+    let place = format!("[system.parameters.{}]", it.name);
+    source.only(table, &place, &["default", "unit", "meaning"]);
+    let default = match table.get("default") {
+        Some(value) => source.number(value, "default"),
+        None => {
+            source.fault(it.at, format!("{} needs a default", it.name));
+            None
+        }
+    };
+    let string = |key: &str| table.get(key).and_then(|it| source.string(it, key));
+    let [unit, meaning] = ["unit", "meaning"].map(|key| string(key).map(|it| it.characters));
+    Some(Parameter { name: it.name.clone(), default: default?, unit, meaning })
+}

@@ -1,0 +1,403 @@
+//! The instructions by which the values of a text are computed: constants once a case, others once a mode, series term by term.
+
+use std::f64::consts::PI;
+
+use crate::graph::Function;
+use crate::lowering::Making;
+use crate::text::{Event, Section, Text};
+
+/// The place of a number that is not a series.
+pub type Scalar = usize;
+/// The place of a series.
+pub type Register = usize;
+
+/// What computes a number that is not a series, into the next place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ScalarStep {
+    /// A number.
+    Number(f64),
+    /// A parameter.
+    Parameter(usize),
+    /// A switch.
+    Switch(usize),
+    /// A pulse.
+    Pulse(usize),
+    /// The sign of the sliding of a friction.
+    Sign(usize),
+    /// a + b
+    Add(Scalar, Scalar),
+    /// a - b
+    Sub(Scalar, Scalar),
+    /// a b
+    Mul(Scalar, Scalar),
+    /// a/b
+    Div(Scalar, Scalar),
+    /// -a
+    Neg(Scalar),
+    /// A function of one number.
+    Of(Function, Scalar),
+    /// The greater one.
+    Max(Scalar, Scalar),
+    /// The lesser one.
+    Min(Scalar, Scalar),
+}
+
+/// What computes a term of a series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SeriesStep {
+    /// A constant as a series.
+    Constant(Scalar),
+    /// Time since the start of the cycle.
+    Time,
+    /// a + b
+    Add(Register, Register),
+    /// a - b
+    Sub(Register, Register),
+    /// -a
+    Neg(Register),
+    /// a + s
+    AddConstant(Register, Scalar),
+    /// s - a
+    FromConstant(Scalar, Register),
+    /// s a
+    Scale(Scalar, Register),
+    /// a + s b
+    AddScaled(Register, Scalar, Register),
+    /// a - s b
+    SubScaled(Register, Scalar, Register),
+    /// s a + r b
+    TwoScaled(Scalar, Register, Scalar, Register),
+    /// a b
+    Mul(Register, Register),
+    /// a a
+    Square(Register),
+    /// a/b
+    Div(Register, Register),
+    /// The square root.
+    Sqrt(Register),
+    /// The exponential.
+    Exp(Register),
+    /// The natural logarithm.
+    Log(Register),
+    /// The sine, and in the next register the cosine.
+    SinCos(Register),
+    /// The same of s + r t.
+    Rotation(Scalar, Scalar),
+    /// The hyperbolic tangent, and in the next register one less its square.
+    Tanh(Register),
+    /// A friction, from its size while it slides and what it is at rest.
+    Friction(usize, Register, Register),
+}
+
+/// What computes a register, or two.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instruction {
+    /// The register, or the first of two.
+    pub register: Register,
+    /// How.
+    pub step: SeriesStep,
+    /// Whether earlier terms of it are asked for, or all of them.
+    pub is_kept: bool,
+    /// Whether it needs all terms of its operands and of itself.
+    pub folds: bool,
+    /// Whether it writes the next register, too.
+    pub is_pair: bool,
+}
+
+impl SeriesStep {
+    /// Whether it needs all terms of its operands and of itself.
+    pub fn folds(self) -> bool {
+        !matches!(
+            self,
+            SeriesStep::Constant(_)
+                | SeriesStep::Time
+                | SeriesStep::Add(..)
+                | SeriesStep::Sub(..)
+                | SeriesStep::Neg(_)
+                | SeriesStep::AddConstant(..)
+                | SeriesStep::FromConstant(..)
+                | SeriesStep::Scale(..)
+                | SeriesStep::AddScaled(..)
+                | SeriesStep::SubScaled(..)
+                | SeriesStep::TwoScaled(..)
+                | SeriesStep::Rotation(..)
+                | SeriesStep::Friction(..)
+        )
+    }
+
+    /// The registers and the numbers that it takes, two of each; where it takes fewer, any others.
+    #[inline(always)]
+    pub fn operands(self) -> ([Register; 2], [Scalar; 2]) {
+        match self {
+            SeriesStep::Constant(s) => ([0, 0], [s, 0]),
+            SeriesStep::Time => ([0, 0], [0, 0]),
+            SeriesStep::Rotation(s, r) => ([0, 0], [s, r]),
+            SeriesStep::Add(a, b)
+            | SeriesStep::Sub(a, b)
+            | SeriesStep::Mul(a, b)
+            | SeriesStep::Div(a, b)
+            | SeriesStep::Friction(_, a, b) => ([a, b], [0, 0]),
+            SeriesStep::AddConstant(a, s)
+            | SeriesStep::FromConstant(s, a)
+            | SeriesStep::Scale(s, a) => ([a, 0], [s, 0]),
+            SeriesStep::AddScaled(a, s, b) | SeriesStep::SubScaled(a, s, b) => ([a, b], [s, 0]),
+            SeriesStep::TwoScaled(s, a, r, b) => ([a, b], [s, r]),
+            SeriesStep::Neg(a)
+            | SeriesStep::Square(a)
+            | SeriesStep::Sqrt(a)
+            | SeriesStep::Exp(a)
+            | SeriesStep::Log(a)
+            | SeriesStep::SinCos(a)
+            | SeriesStep::Tanh(a) => ([a, 0], [0, 0]),
+        }
+    }
+
+    /// How many registers it writes.
+    #[inline(always)]
+    pub fn registers(self) -> usize {
+        match self {
+            SeriesStep::SinCos(_) | SeriesStep::Rotation(..) | SeriesStep::Tanh(_) => 2,
+            _ => 1,
+        }
+    }
+}
+
+/// A value of a text by where it is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// A number.
+    Scalar(Scalar),
+    /// A series.
+    Series(Register),
+}
+
+/// What a guard of the motion is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Guard {
+    /// An event by its place.
+    Event(usize),
+    /// A switch by its place.
+    Switch(usize),
+    /// A friction by its place: its sliding, or at rest what it holds forward.
+    Forward(usize),
+    /// A friction at rest by its place: what it holds backward.
+    Backward(usize),
+    /// The next edge of a pulse.
+    Edge,
+}
+
+/// What of a text the motion needs, with instructions for all of it.
+#[derive(Debug, Clone)]
+pub struct Program {
+    /// The text.
+    pub text: Text,
+    /// What computes the numbers, each from earlier ones.
+    pub scalars: Vec<ScalarStep>,
+    /// Which of them change with the mode; the others are constant in a case.
+    pub of_mode: Vec<Scalar>,
+    /// The first registers are the states; what computes the others, each from earlier ones.
+    pub series: Vec<Instruction>,
+    /// How many registers there are.
+    pub registers: usize,
+    /// The rate of each state.
+    pub rates: Vec<Place>,
+    /// Of each switch what is positive on its side.
+    pub sides: Vec<Place>,
+    /// Of each event what is positive until it happens.
+    pub lasts: Vec<Place>,
+    /// Of each event what it makes of states.
+    pub resets: Vec<Vec<(usize, Place)>>,
+    /// Of each friction what it is of, its size, what it holds, and what it is at rest.
+    pub frictions: Vec<FrictionPlaces>,
+    /// Of each pulse its duty.
+    pub duties: Vec<Scalar>,
+    /// The period of the section, or the longest time that is waited for it.
+    pub period: Scalar,
+    /// Of each switch and of each event where the motion is put.
+    pub bounds: Bounds,
+    /// The guards in their order.
+    pub guards: Vec<Guard>,
+    /// The series whose decay sets the length of a step: the states, and what may grow within a step from below the rounding of others.
+    pub paced: Vec<Register>,
+    /// The arguments of exponentials.
+    pub arguments: Vec<Register>,
+    /// Where each state is in the array of a motion: first those on the section, which have room for `D`, then the state that is zero on
+    /// it, then the one that drifts.
+    pub layout: Vec<usize>,
+    /// Of each event which frictions are of states that it moves.
+    pub moves: Vec<Vec<bool>>,
+    /// The state whose local extrema may touch surfaces, with these: at first one, or two.
+    pub touching: Option<(usize, [Scalar; 2])>,
+}
+
+/// Where the values of a friction are computed.
+#[derive(Debug, Clone)]
+pub struct FrictionPlaces {
+    /// What is zero at rest.
+    pub of: Place,
+    /// Its size while it slides.
+    pub sliding: Place,
+    /// What it can be at rest.
+    pub holds: Place,
+    /// What it is at rest.
+    pub at_rest: Place,
+    /// The state that is put where the friction rests, of those that it is of that with the largest factor, and this.
+    pub leading: (usize, Scalar),
+    /// The other states that it is of, with their factors.
+    pub others: Vec<(usize, Scalar)>,
+}
+
+/// Where the motion is put on surfaces: a state and its value, by place.
+#[derive(Debug, Clone, Default)]
+pub struct Bounds {
+    /// Of each switch.
+    pub switches: Vec<Option<(usize, Scalar)>>,
+    /// Of each event.
+    pub events: Vec<Option<(usize, Scalar)>>,
+}
+
+impl Program {
+    /// The instructions of a text.
+    ///
+    /// A point of its section has room for `room` coordinates.
+    pub fn new(text: Text, room: usize) -> Self {
+        let mut making = Making::new(&text);
+        let rates: Vec<Place> = text.rates.iter().map(|it| making.place(*it)).collect();
+        let sides: Vec<Place> = text.switches.iter().map(|it| making.place(it.side)).collect();
+        let lasts: Vec<Place> = text.events.iter().map(|it| making.place(it.lasts)).collect();
+        let resets = text
+            .events
+            .iter()
+            .map(|event| event.reset.iter().map(|it| (it.0, making.place(it.1))).collect())
+            .collect();
+        let frictions: Vec<FrictionPlaces> =
+            (0..text.frictions.len()).map(|it| making.friction(&text, it)).collect();
+        let duties = text.pulses.iter().map(|it| making.scalar(it.duty)).collect();
+        let period = match text.section {
+            Section::Every(period) => making.scalar(period),
+            Section::When { within, .. } => making.scalar(within),
+        };
+        let bounds = Bounds {
+            switches: text.switches.iter().map(|it| making.bound(it.bound)).collect(),
+            events: text.events.iter().map(|it| making.bound(it.bound)).collect(),
+        };
+        let guards = guards(&text);
+        let touching = touching(&text, &bounds);
+        let layout = layout(&text, room);
+        let moves = moves(&text);
+        let Making { scalars, of_mode, series, registers, growing, .. } = making;
+        let argument = |it: &Instruction| match it.step {
+            SeriesStep::Exp(of) => Some(of),
+            _ => None,
+        };
+        let arguments = series.iter().filter_map(argument).collect();
+        let asked_for = sides.iter().chain(&lasts).copied();
+        let of_guards: Vec<Place> = asked_for.chain(of_frictions(&frictions)).collect();
+        let series = kept(series, &of_guards);
+        let paced = (0..text.states.len()).chain(growing).collect();
+        Program {
+            text,
+            scalars,
+            of_mode,
+            series,
+            registers,
+            rates,
+            sides,
+            lasts,
+            resets,
+            frictions,
+            duties,
+            period,
+            bounds,
+            guards,
+            paced,
+            arguments,
+            layout,
+            moves,
+            touching,
+        }
+    }
+}
+
+/// What guards ask of frictions.
+fn of_frictions(frictions: &[FrictionPlaces]) -> impl Iterator<Item = Place> + '_ {
+    frictions.iter().flat_map(|it| [it.of, it.holds, it.at_rest])
+}
+
+/// Instructions that know which of their registers are asked for as series.
+fn kept(series: Vec<Instruction>, of_guards: &[Place]) -> Vec<Instruction> {
+    let folded = series.iter().filter(|it| it.step.folds());
+    let folded: Vec<Register> = folded.flat_map(|it| it.step.operands().0).collect();
+    let is_kept = |it: &Instruction| {
+        let own = it.register..it.register + it.step.registers();
+        let is_asked_for = |place: &Place| match place {
+            Place::Series(register) => own.contains(register),
+            Place::Scalar(_) => false,
+        };
+        it.step.folds()
+            || folded.iter().any(|it| own.contains(it))
+            || of_guards.iter().any(is_asked_for)
+    };
+    series.iter().map(|it| Instruction { is_kept: is_kept(it), ..*it }).collect()
+}
+
+impl Program {
+    /// What the places of the array of a motion are multiplied by to be compared, with the period of the section.
+    ///
+    /// A state of a driven oscillator whose unit is that of another one times seconds counts as a velocity, by the angular
+    /// frequency; others count as they are.
+    pub fn scales<const N: usize>(&self, period: f64) -> [f64; N] {
+        let mut scales = [1.0; N];
+        let states = &self.text.states;
+        for (state, at) in states.iter().zip(&self.layout) {
+            let rate = format!("{}/s", state.unit);
+            let has_rate = states.iter().any(|it| it.unit == rate);
+            if has_rate && matches!(self.text.section, Section::Every(_)) {
+                scales[*at] = 2.0 * PI / period;
+            }
+        }
+        scales
+    }
+}
+
+/// Where each state of a text is in the array of a motion.
+fn layout(text: &Text, room: usize) -> Vec<usize> {
+    let on_section: Vec<usize> = text.on_section().collect();
+    assert!(on_section.len() <= room, "the section has more coordinates than room");
+    let place = |state: usize| match on_section.iter().position(|it| *it == state) {
+        Some(place) => place,
+        None if text.drift == Some(state) => room + 1,
+        None => room,
+    };
+    (0..text.states.len()).map(place).collect()
+}
+
+/// Of each event which frictions are of states that it moves.
+fn moves(text: &Text) -> Vec<Vec<bool>> {
+    let of = |event: &Event| {
+        let moved = |state: &usize| event.reset.iter().any(|it| it.0 == *state);
+        let frictions = text.frictions.iter();
+        frictions.map(|it| it.linear.factors.iter().any(|it| moved(&it.0))).collect()
+    };
+    text.events.iter().map(of).collect()
+}
+
+/// The guards of a text in their order.
+fn guards(text: &Text) -> Vec<Guard> {
+    let events = (0..text.events.len()).map(Guard::Event);
+    let switches = (0..text.switches.len()).map(Guard::Switch);
+    let frictions =
+        (0..text.frictions.len()).flat_map(|it| [Guard::Forward(it), Guard::Backward(it)]);
+    let edges = (!text.pulses.is_empty()).then_some(Guard::Edge);
+    events.chain(switches).chain(frictions).chain(edges).collect()
+}
+
+/// The state that may touch surfaces: that which the first event is at, or else the first switch.
+fn touching(text: &Text, bounds: &Bounds) -> Option<(usize, [Scalar; 2])> {
+    let mut all = bounds.events.iter().flatten();
+    let mut switches = bounds.switches.iter().flatten();
+    let (state, first) = *all.next().or_else(|| switches.next())?;
+    let second = all.chain(switches).find(|it| it.0 == state).map_or(first, |it| it.1);
+    debug_assert!(state < text.states.len());
+    Some((state, [first, second]))
+}

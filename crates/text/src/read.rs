@@ -1,0 +1,220 @@
+//! From the characters of a text to an oscillator, or to all that is wrong with it.
+
+use toml::de::DeTable;
+
+use crate::dependence::check_dependence;
+use crate::entries::Pieces;
+use crate::fault::Fault;
+use crate::graph::{Graph, Id, Node};
+use crate::linear::{Linear, TakenApart, linear};
+use crate::names::Names;
+use crate::parts;
+use crate::text::{Event, Friction, Parameter, Pulse, Section, State, Switch, Text};
+use crate::values::Values;
+use crate::written::{Source, place_of};
+
+/// Guards that a system has at most, its section included.
+const MOST_GUARDS: usize = capsulemap_engine::flow::MAX_GUARDS;
+/// Values in the graph of a text at most.
+const MOST_VALUES: usize = 4000;
+
+/// Reads the table `system` of a text.
+///
+/// # Errors
+/// All that is wrong in it, each with its line and column.
+pub fn read(text: &str) -> Result<Text, Vec<Fault>> {
+    let source = Source::new(text);
+    let tables = source.tables();
+    let table = tables.get_ref();
+    source.only(table, "the text", &["system"]);
+    let found = match table.get("system") {
+        Some(value) => source.table(value, "system").and_then(|it| of_table(&source, it)),
+        None => {
+            source.fault(0, "the text needs a table [system]");
+            None
+        }
+    };
+    match found {
+        Some(text) if !source.has_faults() => Ok(text),
+        _ => Err(source.into_faults()),
+    }
+}
+
+fn of_table<'a>(source: &Source<'a>, table: &DeTable<'a>) -> Option<Text> {
+    const KEYS: [&str; 11] = [
+        "name",
+        "states",
+        "parameters",
+        "definitions",
+        "rates",
+        "switch",
+        "friction",
+        "pulse",
+        "events",
+        "section",
+        "drift",
+    ];
+    source.only(table, "[system]", &KEYS);
+    let name = table.get("name").and_then(|it| source.string(it, "name"));
+    if table.get("name").is_none() {
+        source.fault(place_of(table), "[system] needs a name");
+    }
+    let pieces = Pieces::of(source, table);
+    let mut names = Names::new();
+    pieces.give_names(source, &mut names);
+    let mut values = Values::new(source, names, pieces.frictions.len());
+    let made = Made::of(&mut values, &pieces, table);
+    values.all_definitions();
+    if values.graph.len() > MOST_VALUES {
+        source.fault(place_of(table), format!("the text has more than {MOST_VALUES} values"));
+        return None;
+    }
+    let graph = std::mem::take(&mut values.graph);
+    let text = made?.text(source, &pieces, graph, name?.characters)?;
+    check_guards(source, &text, place_of(table));
+    check_dependence(source, &text, table);
+    Some(text)
+}
+
+/// What was made of the expressions of a text; none of what is wrong.
+struct Made {
+    states: Vec<State>,
+    parameters: Vec<Parameter>,
+    rates: Vec<Id>,
+    switches: Vec<Switch>,
+    frictions: Vec<(Id, Id, Id)>,
+    pulses: Vec<Pulse>,
+    events: Vec<Event>,
+    section: Section,
+    drift: Option<usize>,
+}
+
+impl Made {
+    fn of<'a>(
+        values: &mut Values<'a, '_>,
+        pieces: &Pieces<'_, 'a>,
+        table: &DeTable<'a>,
+    ) -> Option<Made> {
+        let of_frictions = parts::values_of_frictions(values, pieces);
+        let switches: Vec<_> = pieces.switches.iter().map(|it| parts::switch(values, it)).collect();
+        let pulses = parts::pulses(values, pieces);
+        let rates = parts::rates(values, pieces, table);
+        let frictions: Vec<_> = pieces
+            .frictions
+            .iter()
+            .zip(of_frictions)
+            .map(|(it, of)| Some((of, parts::friction(values, it)?)))
+            .map(|it| it.and_then(|(of, (sliding, holds))| Some((of?, sliding, holds))))
+            .collect();
+        let events = parts::events(values, pieces, table);
+        let section = parts::section(values, pieces, table);
+        let drift = parts::drift(values.source, pieces, table);
+        let source = values.source;
+        let states = pieces.states.iter().map(|it| parts::state(source, it)).collect::<Option<_>>();
+        let parameters =
+            pieces.parameters.iter().map(|it| parts::parameter(source, it)).collect::<Vec<_>>();
+        Some(Made {
+            states: states?,
+            parameters: parameters.into_iter().collect::<Option<_>>()?,
+            rates: rates?,
+            switches: switches.into_iter().collect::<Option<_>>()?,
+            frictions: frictions.into_iter().collect::<Option<_>>()?,
+            pulses: pulses?,
+            events: events?,
+            section: section?,
+            drift: drift?,
+        })
+    }
+
+    /// The oscillator, once its frictions at rest are solved for.
+    fn text(
+        self,
+        source: &Source<'_>,
+        pieces: &Pieces<'_, '_>,
+        mut graph: Graph,
+        name: String,
+    ) -> Option<Text> {
+        let mut frictions = Vec::new();
+        for (place, (of, sliding, holds)) in self.frictions.iter().copied().enumerate() {
+            let entry = &pieces.frictions[place];
+            let made = at_rest(&mut graph, &self.rates, of, (place, self.frictions.len()));
+            match made {
+                Ok((linear, at_rest, _)) => frictions.push(Friction {
+                    name: entry.name.clone(),
+                    of,
+                    linear,
+                    sliding,
+                    holds,
+                    at_rest,
+                }),
+                Err(message) => source.fault(entry.at, format!("{}: {message}", entry.name)),
+            }
+            let touches = |id: Id| {
+                let all = 0..self.frictions.len();
+                all.map(Node::Friction).any(|it| graph.depends_on(id, it))
+            };
+            if touches(sliding) || touches(holds) || touches(of) {
+                let message = "`of`, `sliding` and `holds` may not be of a friction";
+                source.fault(entry.at, format!("{}: {message}", entry.name));
+            }
+        }
+        let Made { states, parameters, rates, switches, pulses, events, section, drift, .. } = self;
+        Some(Text {
+            name,
+            states,
+            parameters,
+            graph,
+            rates,
+            switches,
+            frictions,
+            pulses,
+            events,
+            section,
+            drift,
+        })
+    }
+}
+
+/// What the friction at a place is of, by states, and what it is at rest: the rate of what it is of vanishes there.
+fn at_rest(
+    graph: &mut Graph,
+    rates: &[Id],
+    of: Id,
+    (place, count): (usize, usize),
+) -> Result<(Linear, Id, Id), String> {
+    let linear = linear(graph, of).filter(|it| !it.factors.is_empty());
+    let Some(linear) = linear else {
+        return Err("`of` must be a sum of states with constant factors".into());
+    };
+    let mut rate = graph.number(0.0);
+    for (state, factor) in &linear.factors {
+        let part = graph.mul(*factor, rates[*state]);
+        rate = graph.add(rate, part);
+    }
+    let apart = TakenApart::default().of(graph, rate, place);
+    let Some(apart) = apart else {
+        return Err("the rates must be linear in the friction".into());
+    };
+    let Some(factor) = apart.factor else {
+        return Err("the rates of what it is of must have the friction".into());
+    };
+    let others = (0..count).map(Node::Friction);
+    if others.clone().any(|it| graph.depends_on(apart.without, it) || graph.depends_on(factor, it))
+    {
+        return Err("a friction may not act on what another one is of".into());
+    }
+    let force = graph.div(apart.without, factor);
+    Ok((linear, graph.neg(force), factor))
+}
+
+fn check_guards(source: &Source<'_>, text: &Text, at: usize) {
+    let section = usize::from(matches!(text.section, Section::When { .. }));
+    let guards = text.guards() + section;
+    if guards > MOST_GUARDS {
+        let message = format!(
+            "the system has {guards} guards (one an event and a switch, two a friction, one the pulses, \
+             one a section by a state), and may have {MOST_GUARDS}"
+        );
+        source.fault(at, message);
+    }
+}

@@ -1,0 +1,117 @@
+//! The system of a text by its parameters, from which the engine makes the oscillator in numbers of any kind.
+
+use std::ptr;
+
+use capsulemap_engine::flow::{Metric, System};
+use capsulemap_engine::lane::Lane;
+
+use crate::mode::{TextEvent, TextMode};
+use crate::oscillator::Oscillator;
+use crate::program::Program;
+
+/// The system of a text, driven or autonomous: `D` coordinates on its section, states in `N` places.
+#[derive(Debug, Clone)]
+pub struct TextSystem<const D: usize, const N: usize, const AUTONOMOUS: bool> {
+    program: &'static Program,
+    /// The values of its parameters.
+    values: Vec<f64>,
+    /// How long after the start of a period its section is [periods].
+    turns: f64,
+}
+
+/// A driven system.
+pub type Driven<const D: usize, const N: usize> = TextSystem<D, N, false>;
+/// An autonomous system.
+pub type Autonomous<const D: usize, const N: usize> = TextSystem<D, N, true>;
+
+impl<const D: usize, const N: usize, const AUTONOMOUS: bool> TextSystem<D, N, AUTONOMOUS> {
+    /// The system of a program with its defaults, seen where a period begins.
+    pub fn new(program: &'static Program) -> Self {
+        let values = program.text.parameters.iter().map(|it| it.default).collect();
+        TextSystem { program, values, turns: 0.0 }
+    }
+
+    /// The same seen so many turns later, from 0 to below 1.
+    pub fn seen_at(self, turns: f64) -> Self {
+        TextSystem { turns, ..self }
+    }
+
+    /// The same with another value of the parameter called `name`.
+    ///
+    /// # Panics
+    /// Where there is none.
+    pub fn with_named(&self, name: &str, value: f64) -> Self {
+        self.with(self.parameter(name).expect("the name of a parameter"), value)
+    }
+
+    /// The place of the parameter called `name`.
+    pub fn parameter(&self, name: &str) -> Option<usize> {
+        self.program.text.parameters.iter().position(|it| it.name == name)
+    }
+}
+
+impl<const D: usize, const N: usize, const AUTONOMOUS: bool> PartialEq
+    for TextSystem<D, N, AUTONOMOUS>
+{
+    fn eq(&self, other: &Self) -> bool {
+        self.shares_all_but_parameters(other) && self.values == other.values
+    }
+}
+
+impl<const D: usize, const N: usize, const AUTONOMOUS: bool> System<D>
+    for TextSystem<D, N, AUTONOMOUS>
+{
+    type Parameter = usize;
+    type Event = TextEvent;
+    type State<L: Lane> = [L; N];
+    type Mode<L: Lane> = TextMode<L>;
+    type Single = Oscillator<f64, D, N, AUTONOMOUS>;
+    type In<L: Lane> = Oscillator<L, D, N, AUTONOMOUS>;
+    type Observer = ();
+    type Observers<L: Lane> = ();
+
+    fn single(&self) -> Self::Single {
+        self.constant()
+    }
+
+    fn system<L: Lane>(&self, of: impl Fn(usize) -> L) -> Oscillator<L, D, N, AUTONOMOUS> {
+        let values: Vec<L> = (0..self.values.len()).map(of).collect();
+        Oscillator::new(self.program, &values, self.turns)
+    }
+
+    fn has(&self, parameter: usize) -> bool {
+        parameter < self.values.len()
+    }
+
+    fn value(&self, parameter: usize) -> f64 {
+        self.values[parameter]
+    }
+
+    fn with(&self, parameter: usize, value: f64) -> Self {
+        let mut other = self.clone();
+        other.values[parameter] = value;
+        other
+    }
+
+    fn metric(&self) -> Metric<D> {
+        let scales: [f64; N] = self.program.scales(self.period());
+        Metric::new(std::array::from_fn(|i| scales[i]))
+    }
+
+    fn observer(&self, _points: usize) {}
+
+    fn is_alike(&self, other: &Self) -> bool {
+        ptr::eq(self.program, other.program)
+    }
+
+    fn shares_all_but_parameters(&self, other: &Self) -> bool {
+        self.is_alike(other) && self.turns == other.turns
+    }
+}
+
+impl<const D: usize, const N: usize, const AUTONOMOUS: bool> TextSystem<D, N, AUTONOMOUS> {
+    /// The period of the section, or the longest time that is waited for it.
+    fn period(&self) -> f64 {
+        capsulemap_engine::flow::Switched::period(&self.single())
+    }
+}

@@ -1,0 +1,13 @@
+//! Tests of oscillators given as text.
+
+mod compiled;
+mod contract;
+#[path = "../../../engine/tests/it/differences.rs"]
+#[allow(dead_code)]
+mod differences;
+#[path = "../../../engine/tests/it/draws.rs"]
+#[allow(dead_code)]
+mod draws;
+mod faults;
+mod random_texts;
+mod six;
