@@ -25,29 +25,6 @@
 //! assert_eq!((text.states.len(), text.guards()), (2, 0));
 //! ```
 
-pub mod expression;
-pub mod fault;
-pub mod graph;
-pub mod linear;
-mod dependence;
-mod entries;
-mod events;
-mod exact;
-pub mod interpreter;
-pub mod jet;
-pub mod mode;
-mod motion;
-mod lowering;
-mod names;
-pub mod oscillator;
-pub mod program;
-mod parts;
-mod read;
-pub mod system;
 pub mod text;
-mod values;
-mod written;
 
-pub use fault::Fault;
-pub use read::read;
-pub use text::Text;
+pub use text::{Fault, Text, mode, program, read, system};

@@ -4,10 +4,10 @@ use capsulemap_engine::flow::{Event as _, Zeros};
 use capsulemap_engine::in_lanes;
 use capsulemap_engine::lane::{Lane, Mask};
 
-use crate::interpreter::{at, slides};
-use crate::mode::{EventKind, TextEvent, TextMode};
-use crate::oscillator::{Oscillator, Values};
-use crate::program::Guard;
+use crate::text::instructions::Guard;
+use crate::text::interpreter::{at, slides};
+use crate::text::mode::{EventKind, TextEvent, TextMode};
+use crate::text::oscillator::{Oscillator, Values};
 
 /// Two sizes of a friction that are no farther apart, relative to them, are one: then sliding begins without a jump of the force.
 const SAME: f64 = 1e-9;

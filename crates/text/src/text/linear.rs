@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::graph::{Graph, Id, Level, Node};
+use crate::text::graph::{Graph, Id, Level, Node};
 
 /// A value as a sum: constant factors times states, and a constant.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,18 +2,20 @@
 
 use toml::de::DeTable;
 
-use crate::entries::{Entry, Pieces, Value, entries, needed};
-use crate::graph::{Graph, Id};
-use crate::linear::linear;
-use crate::text::{Bound, Event, MOST_OF_A_KIND, Parameter, Pulse, Section, State, Switch};
-use crate::values::Values;
-use crate::written::{Source, hint, place_of};
+use crate::text::content::{
+    Bound, Event, MOST_OF_A_KIND, Parameter, Pulse, Section, State, Switch,
+};
+use crate::text::entries::{Entry, Parsed, Value, entries, needed};
+use crate::text::graph::{Graph, Id};
+use crate::text::linear::linear;
+use crate::text::values::Values;
+use crate::text::written::{Source, hint, place_of};
 
 pub(crate) fn values_of_frictions<'a>(
     values: &mut Values<'a, '_>,
-    pieces: &Pieces<'_, 'a>,
+    parsed: &Parsed<'_, 'a>,
 ) -> Vec<Option<Id>> {
-    for (place, it) in pieces.frictions.iter().enumerate() {
+    for (place, it) in parsed.frictions.iter().enumerate() {
         let Some(table) = values.source.table(it.value, &it.name) else { continue };
         let written = needed(values.source, table, it, "of");
         values.of_frictions[place] = written.and_then(|it| values.value(&it));
@@ -62,11 +64,11 @@ fn bound(graph: &mut Graph, surface: Id) -> Option<Bound> {
 
 pub(crate) fn pulses<'a>(
     values: &mut Values<'a, '_>,
-    pieces: &Pieces<'_, 'a>,
+    parsed: &Parsed<'_, 'a>,
 ) -> Option<Vec<Pulse>> {
     let source = values.source;
     let mut pulses = Vec::new();
-    for it in &pieces.pulses {
+    for it in &parsed.pulses {
         let Some(table) = source.table(it.value, &it.name) else { continue };
         source.only(table, &format!("[system.pulse.{}]", it.name), &["period", "duty"]);
         let mut constant = |key: &str| {
@@ -83,21 +85,21 @@ pub(crate) fn pulses<'a>(
 /// The rate of each state, in the order of the states.
 pub(crate) fn rates<'a>(
     values: &mut Values<'a, '_>,
-    pieces: &Pieces<'_, 'a>,
+    parsed: &Parsed<'_, 'a>,
     table: &DeTable<'a>,
 ) -> Option<Vec<Id>> {
     let source = values.source;
     let entries = entries(source, table, "rates");
     for it in &entries {
-        if pieces.states.iter().all(|state| state.name != it.name) {
-            let states = pieces.states.iter().map(|it| it.name.as_str());
+        if parsed.states.iter().all(|state| state.name != it.name) {
+            let states = parsed.states.iter().map(|it| it.name.as_str());
             let states: Vec<&str> = states.collect();
             let message = format!("there is no state {:?}{}", it.name, hint(&it.name, states));
             source.fault(it.at, message);
         }
     }
     let mut rates = Vec::new();
-    for state in &pieces.states {
+    for state in &parsed.states {
         let Some(entry) = entries.iter().find(|it| it.name == state.name) else {
             source.fault(state.at, format!("the state {} needs a rate", state.name));
             rates.push(None);
@@ -111,7 +113,7 @@ pub(crate) fn rates<'a>(
 
 pub(crate) fn events<'a>(
     values: &mut Values<'a, '_>,
-    pieces: &Pieces<'_, 'a>,
+    parsed: &Parsed<'_, 'a>,
     table: &DeTable<'a>,
 ) -> Option<Vec<Event>> {
     let source = values.source;
@@ -126,14 +128,14 @@ pub(crate) fn events<'a>(
             source.fault(it.span().start, format!("more than {MOST_OF_A_KIND} events"));
             return None;
         }
-        events.push(event(values, pieces, it));
+        events.push(event(values, parsed, it));
     }
     events.into_iter().collect()
 }
 
 fn event<'a>(
     values: &mut Values<'a, '_>,
-    pieces: &Pieces<'_, 'a>,
+    parsed: &Parsed<'_, 'a>,
     value: &Value<'a>,
 ) -> Option<Event> {
     let source = values.source;
@@ -145,13 +147,13 @@ fn event<'a>(
     let lasts = condition.and_then(|it| values.excess(&it));
     let mut reset = Some(Vec::new());
     for it in entries(source, table, "reset") {
-        let state = pieces.states.iter().position(|state| state.name == it.name);
+        let state = parsed.states.iter().position(|state| state.name == it.name);
         let written = source.expression(it.value, &it.name);
         let value = written.and_then(|it| values.value(&it));
         match (state, value, &mut reset) {
             (Some(state), Some(value), Some(known)) => known.push((state, value)),
             (None, ..) => {
-                let states: Vec<&str> = pieces.states.iter().map(|it| it.name.as_str()).collect();
+                let states: Vec<&str> = parsed.states.iter().map(|it| it.name.as_str()).collect();
                 let message = format!("there is no state {:?}{}", it.name, hint(&it.name, states));
                 source.fault(it.at, message);
                 reset = None;
@@ -166,7 +168,7 @@ fn event<'a>(
 
 pub(crate) fn section<'a>(
     values: &mut Values<'a, '_>,
-    pieces: &Pieces<'_, 'a>,
+    parsed: &Parsed<'_, 'a>,
     table: &DeTable<'a>,
 ) -> Option<Section> {
     const FORMS: &str = "{ every = \"2*pi/w\" } or { when = \"v falls\", within = 100.0 }";
@@ -187,19 +189,19 @@ pub(crate) fn section<'a>(
             let when = source.string(when, "when")?;
             let within = source.expression(within, "within")?;
             let within = values.constant(&within, "within")?;
-            if !pieces.pulses.is_empty() {
+            if !parsed.pulses.is_empty() {
                 source.fault(at, "a system with pulses has a section { every = \"...\" }");
             }
             let mut words = when.characters.split_whitespace();
             let state = words.next().unwrap_or_default();
-            let place = pieces.states.iter().position(|it| it.name == state);
+            let place = parsed.states.iter().position(|it| it.name == state);
             let falls = match words.next() {
                 Some("falls") => Some(true),
                 Some("rises") => Some(false),
                 _ => None,
             };
             let (Some(state), Some(falls), None) = (place, falls, words.next()) else {
-                let states: Vec<&str> = pieces.states.iter().map(|it| it.name.as_str()).collect();
+                let states: Vec<&str> = parsed.states.iter().map(|it| it.name.as_str()).collect();
                 let message = format!(
                     "a section is where a state falls or rises through zero, as \"v falls\"{}",
                     hint(state, states)
@@ -220,14 +222,14 @@ pub(crate) fn section<'a>(
 #[allow(clippy::option_option)]
 pub(crate) fn drift<'a>(
     source: &Source<'a>,
-    pieces: &Pieces<'_, 'a>,
+    parsed: &Parsed<'_, 'a>,
     table: &DeTable<'a>,
 ) -> Option<Option<usize>> {
     let Some(value) = table.get("drift") else { return Some(None) };
     let name = source.string(value, "drift")?;
-    let place = pieces.states.iter().position(|it| it.name == name.characters);
+    let place = parsed.states.iter().position(|it| it.name == name.characters);
     if place.is_none() {
-        let states: Vec<&str> = pieces.states.iter().map(|it| it.name.as_str()).collect();
+        let states: Vec<&str> = parsed.states.iter().map(|it| it.name.as_str()).collect();
         let hint = hint(&name.characters, states);
         source.fault(name.at, format!("there is no state {:?}{hint}", name.characters));
     }

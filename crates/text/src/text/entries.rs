@@ -3,9 +3,9 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::names::{Meaning, Names};
-use crate::text::{MOST_OF_A_KIND, MOST_STATES};
-use crate::written::{Source, Written, place_of};
+use crate::text::content::{MOST_OF_A_KIND, MOST_STATES};
+use crate::text::names::{Meaning, Names};
+use crate::text::written::{Source, Written, place_of};
 
 /// A value with its place.
 pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
@@ -18,7 +18,7 @@ pub(crate) struct Entry<'t, 'a> {
 }
 
 /// The entries of a text by kind.
-pub(crate) struct Pieces<'t, 'a> {
+pub(crate) struct Parsed<'t, 'a> {
     pub(crate) states: Vec<Entry<'t, 'a>>,
     pub(crate) parameters: Vec<Entry<'t, 'a>>,
     pub(crate) definitions: Vec<Entry<'t, 'a>>,
@@ -27,10 +27,10 @@ pub(crate) struct Pieces<'t, 'a> {
     pub(crate) pulses: Vec<Entry<'t, 'a>>,
 }
 
-impl<'t, 'a> Pieces<'t, 'a> {
+impl<'t, 'a> Parsed<'t, 'a> {
     pub(crate) fn of(source: &Source<'a>, table: &'t DeTable<'a>) -> Self {
         let of = |key: &str| entries(source, table, key);
-        let pieces = Pieces {
+        let parsed = Parsed {
             states: of("states"),
             parameters: of("parameters"),
             definitions: of("definitions"),
@@ -38,21 +38,21 @@ impl<'t, 'a> Pieces<'t, 'a> {
             frictions: of("friction"),
             pulses: of("pulse"),
         };
-        if pieces.states.is_empty() {
+        if parsed.states.is_empty() {
             source.fault(place_of(table), "[system] needs states, as states = { x = \"m\" }");
         }
         let kinds = [
-            ("states", &pieces.states, MOST_STATES),
-            ("switches", &pieces.switches, MOST_OF_A_KIND),
-            ("frictions", &pieces.frictions, MOST_OF_A_KIND),
-            ("pulses", &pieces.pulses, MOST_OF_A_KIND),
+            ("states", &parsed.states, MOST_STATES),
+            ("switches", &parsed.switches, MOST_OF_A_KIND),
+            ("frictions", &parsed.frictions, MOST_OF_A_KIND),
+            ("pulses", &parsed.pulses, MOST_OF_A_KIND),
         ];
         for (what, entries, most) in kinds {
             if let Some(it) = entries.get(most) {
                 source.fault(it.at, format!("more than {most} {what}"));
             }
         }
-        pieces
+        parsed
     }
 
     pub(crate) fn give_names(&self, source: &Source<'a>, names: &mut Names) {

@@ -1,7 +1,7 @@
 //! An oscillator as its text says it: states, rates, and what makes it switch, as values of one graph.
 
-use crate::graph::{Graph, Id, Node};
-use crate::linear::Linear;
+use crate::text::graph::{Graph, Id, Node};
+use crate::text::linear::Linear;
 
 /// The most states of a system.
 pub const MOST_STATES: usize = 8;

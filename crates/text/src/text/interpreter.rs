@@ -4,9 +4,10 @@ use capsulemap_engine::in_lanes;
 use capsulemap_engine::lane::series::{self, SquareRoot};
 use capsulemap_engine::lane::{Lane, Series, elementary};
 
-use crate::graph::Function;
-use crate::mode::TextMode;
-use crate::program::{Instruction, Place, Program, ScalarStep, SeriesStep};
+use crate::text::graph::Function;
+use crate::text::instructions::{Instruction, Place, ScalarStep, SeriesStep};
+use crate::text::mode::TextMode;
+use crate::text::program::Program;
 
 /// The numbers of a case, with zeros for those that change with the mode.
 ///

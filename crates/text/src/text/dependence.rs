@@ -2,9 +2,9 @@
 
 use toml::de::DeTable;
 
-use crate::graph::{Function, Id, Level, Node};
-use crate::text::{Section, Text};
-use crate::written::{Source, place_of};
+use crate::text::content::{Section, Text};
+use crate::text::graph::{Function, Id, Level, Node};
+use crate::text::written::{Source, place_of};
 
 /// A multiple of a turn to this is one [turns].
 const WHOLE: f64 = 1e-9;

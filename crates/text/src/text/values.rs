@@ -1,9 +1,9 @@
 //! Expressions as values of the graph: names looked up, definitions in their places.
 
-use crate::expression::{Condition, Expression, Kind, Operator, condition, expression};
-use crate::graph::{Function, Graph, Id, Level, Node};
-use crate::names::{Meaning, Names, OF_TWO};
-use crate::written::{Source, Written, hint};
+use crate::text::expression::{Condition, Expression, Kind, Operator, condition, expression};
+use crate::text::graph::{Function, Graph, Id, Level, Node};
+use crate::text::names::{Meaning, Names, OF_TWO};
+use crate::text::written::{Source, Written, hint};
 
 /// The greatest whole power.
 const MOST_POWER: f64 = 64.0;
@@ -23,7 +23,7 @@ pub struct Values<'a, 's> {
 #[derive(Clone, Copy)]
 enum Definition {
     Waits,
-    IsMade,
+    Begun,
     Is(Option<Id>),
 }
 
@@ -115,14 +115,14 @@ impl<'a, 's> Values<'a, 's> {
     fn definition(&mut self, place: usize, used_at: Option<usize>) -> Option<Id> {
         match self.definitions[place] {
             Definition::Is(id) => id,
-            Definition::IsMade => {
+            Definition::Begun => {
                 let name = &self.names.definitions[place].0;
                 let message = format!("{name} is defined by itself in the end");
                 self.source.fault(used_at.unwrap_or_default(), message);
                 None
             }
             Definition::Waits => {
-                self.definitions[place] = Definition::IsMade;
+                self.definitions[place] = Definition::Begun;
                 let written = self.names.definitions[place].1.clone();
                 let id = self.value(&written);
                 self.definitions[place] = Definition::Is(id);

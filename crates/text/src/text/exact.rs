@@ -2,9 +2,9 @@
 
 use capsulemap_engine::flow::{Field, Switched};
 
-use crate::graph::{Function, Graph, Id, Node};
-use crate::mode::TextMode;
-use crate::oscillator::Oscillator;
+use crate::text::graph::{Function, Graph, Id, Node};
+use crate::text::mode::TextMode;
+use crate::text::oscillator::Oscillator;
 
 /// Where the values of a text are asked for.
 struct Point<'a> {

@@ -5,13 +5,13 @@ use capsulemap_engine::in_lanes;
 use capsulemap_engine::lane::elementary::not_finite;
 use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, series};
 
-use crate::events::Due;
-use crate::interpreter::{carry_out, complete, series_of, slides};
-use crate::jet::TextJet;
-use crate::mode::{TextEvent, TextMode};
-use crate::oscillator::Oscillator;
-use crate::program::{Guard, Place};
-use crate::text::Section;
+use crate::text::content::Section;
+use crate::text::events::Due;
+use crate::text::instructions::{Guard, Place};
+use crate::text::interpreter::{carry_out, complete, series_of, slides};
+use crate::text::jet::TextJet;
+use crate::text::mode::{TextEvent, TextMode};
+use crate::text::oscillator::Oscillator;
 
 /// An exponential whose argument is below this is less than the rounding of one.
 const UNSEEN: f64 = -36.0;

@@ -2,16 +2,16 @@
 
 use toml::de::DeTable;
 
-use crate::dependence::check_dependence;
-use crate::entries::Pieces;
-use crate::fault::Fault;
-use crate::graph::{Graph, Id, Node};
-use crate::linear::{Linear, TakenApart, linear};
-use crate::names::Names;
-use crate::parts;
-use crate::text::{Event, Friction, Parameter, Pulse, Section, State, Switch, Text};
-use crate::values::Values;
-use crate::written::{Source, place_of};
+use crate::text::content::{Event, Friction, Parameter, Pulse, Section, State, Switch, Text};
+use crate::text::dependence::check_dependence;
+use crate::text::entries::Parsed;
+use crate::text::fault::Fault;
+use crate::text::graph::{Graph, Id, Node};
+use crate::text::linear::{Linear, TakenApart, linear};
+use crate::text::names::Names;
+use crate::text::parts;
+use crate::text::values::Values;
+use crate::text::written::{Source, place_of};
 
 /// Guards that a system has at most, its section included.
 const MOST_GUARDS: usize = capsulemap_engine::flow::MAX_GUARDS;
@@ -59,25 +59,25 @@ fn of_table<'a>(source: &Source<'a>, table: &DeTable<'a>) -> Option<Text> {
     if table.get("name").is_none() {
         source.fault(place_of(table), "[system] needs a name");
     }
-    let pieces = Pieces::of(source, table);
+    let parsed = Parsed::of(source, table);
     let mut names = Names::new();
-    pieces.give_names(source, &mut names);
-    let mut values = Values::new(source, names, pieces.frictions.len());
-    let made = Made::of(&mut values, &pieces, table);
+    parsed.give_names(source, &mut names);
+    let mut values = Values::new(source, names, parsed.frictions.len());
+    let found = Found::of(&mut values, &parsed, table);
     values.all_definitions();
     if values.graph.len() > MOST_VALUES {
         source.fault(place_of(table), format!("the text has more than {MOST_VALUES} values"));
         return None;
     }
     let graph = std::mem::take(&mut values.graph);
-    let text = made?.text(source, &pieces, graph, name?.characters)?;
+    let text = found?.text(source, &parsed, graph, name?.characters)?;
     check_guards(source, &text, place_of(table));
     check_dependence(source, &text, table);
     Some(text)
 }
 
-/// What was made of the expressions of a text; none of what is wrong.
-struct Made {
+/// What was found in the expressions of a text; none of what is wrong.
+struct Found {
     states: Vec<State>,
     parameters: Vec<Parameter>,
     rates: Vec<Id>,
@@ -89,31 +89,31 @@ struct Made {
     drift: Option<usize>,
 }
 
-impl Made {
+impl Found {
     fn of<'a>(
         values: &mut Values<'a, '_>,
-        pieces: &Pieces<'_, 'a>,
+        parsed: &Parsed<'_, 'a>,
         table: &DeTable<'a>,
-    ) -> Option<Made> {
-        let of_frictions = parts::values_of_frictions(values, pieces);
-        let switches: Vec<_> = pieces.switches.iter().map(|it| parts::switch(values, it)).collect();
-        let pulses = parts::pulses(values, pieces);
-        let rates = parts::rates(values, pieces, table);
-        let frictions: Vec<_> = pieces
+    ) -> Option<Found> {
+        let of_frictions = parts::values_of_frictions(values, parsed);
+        let switches: Vec<_> = parsed.switches.iter().map(|it| parts::switch(values, it)).collect();
+        let pulses = parts::pulses(values, parsed);
+        let rates = parts::rates(values, parsed, table);
+        let frictions: Vec<_> = parsed
             .frictions
             .iter()
             .zip(of_frictions)
             .map(|(it, of)| Some((of, parts::friction(values, it)?)))
             .map(|it| it.and_then(|(of, (sliding, holds))| Some((of?, sliding, holds))))
             .collect();
-        let events = parts::events(values, pieces, table);
-        let section = parts::section(values, pieces, table);
-        let drift = parts::drift(values.source, pieces, table);
+        let events = parts::events(values, parsed, table);
+        let section = parts::section(values, parsed, table);
+        let drift = parts::drift(values.source, parsed, table);
         let source = values.source;
-        let states = pieces.states.iter().map(|it| parts::state(source, it)).collect::<Option<_>>();
+        let states = parsed.states.iter().map(|it| parts::state(source, it)).collect::<Option<_>>();
         let parameters =
-            pieces.parameters.iter().map(|it| parts::parameter(source, it)).collect::<Vec<_>>();
-        Some(Made {
+            parsed.parameters.iter().map(|it| parts::parameter(source, it)).collect::<Vec<_>>();
+        Some(Found {
             states: states?,
             parameters: parameters.into_iter().collect::<Option<_>>()?,
             rates: rates?,
@@ -130,15 +130,15 @@ impl Made {
     fn text(
         self,
         source: &Source<'_>,
-        pieces: &Pieces<'_, '_>,
+        parsed: &Parsed<'_, '_>,
         mut graph: Graph,
         name: String,
     ) -> Option<Text> {
         let mut frictions = Vec::new();
         for (place, (of, sliding, holds)) in self.frictions.iter().copied().enumerate() {
-            let entry = &pieces.frictions[place];
-            let made = at_rest(&mut graph, &self.rates, of, (place, self.frictions.len()));
-            match made {
+            let entry = &parsed.frictions[place];
+            let solved = at_rest(&mut graph, &self.rates, of, (place, self.frictions.len()));
+            match solved {
                 Ok((linear, at_rest, _)) => frictions.push(Friction {
                     name: entry.name.clone(),
                     of,
@@ -158,7 +158,8 @@ impl Made {
                 source.fault(entry.at, format!("{}: {message}", entry.name));
             }
         }
-        let Made { states, parameters, rates, switches, pulses, events, section, drift, .. } = self;
+        let Found { states, parameters, rates, switches, pulses, events, section, drift, .. } =
+            self;
         Some(Text {
             name,
             states,

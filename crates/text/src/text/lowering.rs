@@ -2,11 +2,11 @@
 
 use std::collections::HashMap;
 
-use crate::graph::{Function, Graph, Id, Level, Node};
-use crate::program::{
+use crate::text::content::{Bound, Text};
+use crate::text::graph::{Function, Graph, Id, Level, Node};
+use crate::text::instructions::{
     FrictionPlaces, Instruction, Place, Register, Scalar, ScalarStep, SeriesStep,
 };
-use crate::text::{Bound, Text};
 
 /// Instructions that are being made.
 pub(crate) struct Making {

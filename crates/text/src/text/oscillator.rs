@@ -3,9 +3,10 @@
 use capsulemap_engine::in_lanes;
 use capsulemap_engine::lane::{Lane, SideBySide};
 
-use crate::interpreter::{carry_out, complete, constants};
-use crate::mode::{FEW, TextMode};
-use crate::program::{Instruction, Program};
+use crate::text::instructions::Instruction;
+use crate::text::interpreter::{carry_out, complete, constants};
+use crate::text::mode::{FEW, TextMode};
+use crate::text::program::Program;
 
 /// The oscillator of a text with one set of parameters per lane.
 ///

@@ -5,9 +5,9 @@ use std::ptr;
 use capsulemap_engine::flow::{Metric, System};
 use capsulemap_engine::lane::Lane;
 
-use crate::mode::{TextEvent, TextMode};
-use crate::oscillator::Oscillator;
-use crate::program::Program;
+use crate::text::mode::{TextEvent, TextMode};
+use crate::text::oscillator::Oscillator;
+use crate::text::program::Program;
 
 /// The system of a text, driven or autonomous: `D` coordinates on its section, states in `N` places.
 #[derive(Debug, Clone)]

@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::expression::is_name;
-use crate::graph::Function;
-use crate::written::{Source, Written, hint};
+use crate::text::expression::is_name;
+use crate::text::graph::Function;
+use crate::text::written::{Source, Written, hint};
 
 /// Names that have a meaning in every text.
 const OWN: [&str; 2] = ["t", "pi"];

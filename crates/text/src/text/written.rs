@@ -7,8 +7,8 @@ use strsim::damerau_levenshtein;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::expression::Misread;
-use crate::fault::Fault;
+use crate::text::expression::Misread;
+use crate::text::fault::Fault;
 
 /// Names this far from each other are taken for one that is misspelt.
 const FARTHEST: usize = 3;
