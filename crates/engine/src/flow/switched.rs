@@ -105,7 +105,7 @@ pub trait Switched<L: Lane> {
     /// Writes the series of the motion in `mode` from `state` at `time` into `jet`, all of it.
     fn expand(&self, mode: &Self::Mode, time: L, state: &Self::State, jet: &mut Self::Jet);
 
-    /// The series whose decay sets the length of a step.
+    /// The series whose decay sets the length of a step, where [`Switched::longest_step`] is not the system's own.
     ///
     /// They must contain every coordinate whose rate depends on the state in another way than by a constant
     /// factor; a coordinate that is the integral of one of them may be left out.
@@ -118,7 +118,7 @@ pub trait Switched<L: Lane> {
         longest_step(first, tolerance).min(longest_step(second, tolerance))
     }
 
-    /// The longest step within `length` that the series of `pace` describe to `tolerance`.
+    /// The longest step within `length` that the series describe to `tolerance`.
     ///
     /// A pace sees a term of the field by its coefficients. A term that is far below the rounding of the
     /// others where the step begins and grows to their size within the step (friction near rest, seen from

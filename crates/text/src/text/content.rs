@@ -5,8 +5,10 @@ use crate::text::linear::Linear;
 
 /// The most states of a system.
 pub const MOST_STATES: usize = 8;
-/// The most switches, frictions, pulses and events of a system, each.
+/// The most switches, frictions and events of a system, each.
 pub const MOST_OF_A_KIND: usize = 8;
+/// The most pulses of a system.
+pub const MOST_PULSES: usize = 4;
 
 /// An oscillator that its text describes without a fault.
 #[derive(Debug, Clone)]
@@ -118,6 +120,21 @@ pub struct Event {
     pub bound: Option<Bound>,
     /// What it makes of states, by the values before it.
     pub reset: Vec<(usize, Id)>,
+    /// Whether its condition is on its bound after it, too.
+    pub stays_on_surface: bool,
+    /// What depends on states that it moves.
+    pub moved: Moved,
+}
+
+/// What depends on states that an event moves, each by place.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Moved {
+    /// Switches.
+    pub switches: Vec<bool>,
+    /// Conditions of events, but for the bound that it stays on.
+    pub events: Vec<bool>,
+    /// Frictions.
+    pub frictions: Vec<bool>,
 }
 
 /// Where a motion is seen.
@@ -137,6 +154,36 @@ pub enum Section {
 }
 
 impl Text {
+    /// The same once it is known what depends on states that its events move.
+    pub fn with_moved(mut self) -> Text {
+        let all = self.events.clone();
+        for (place, event) in all.iter().enumerate() {
+            let moves = |id: Id| {
+                let mut states = event.reset.iter().map(|it| Node::State(it.0));
+                states.any(|it| self.graph.depends_on(id, it))
+            };
+            let on_bound = event.bound.is_some_and(|bound| {
+                event
+                    .reset
+                    .iter()
+                    .all(|(state, value)| *state != bound.state || *value == bound.value)
+            });
+            let stays_on_surface = on_bound || !moves(event.lasts);
+            let moved = Moved {
+                switches: self.switches.iter().map(|it| moves(it.side)).collect(),
+                events: all
+                    .iter()
+                    .enumerate()
+                    .map(|(other, it)| moves(it.lasts) && !(other == place && stays_on_surface))
+                    .collect(),
+                frictions: self.frictions.iter().map(|it| moves(it.of)).collect(),
+            };
+            (self.events[place].stays_on_surface, self.events[place].moved) =
+                (stays_on_surface, moved);
+        }
+        self
+    }
+
     /// How many guards its motion has, its section not counted.
     pub fn guards(&self) -> usize {
         let edges = usize::from(!self.pulses.is_empty());
@@ -164,26 +211,8 @@ impl Text {
         roots
     }
 
-    /// A constant where the parameters have their defaults.
+    /// A constant where the parameters have their defaults; no number of what is no constant.
     pub fn value_at_defaults(&self, id: Id) -> f64 {
-        self.constant(id, &|place| self.parameters[place].default)
-    }
-
-    /// A constant where the parameters have values by their places; no number of what is no constant.
-    pub fn constant(&self, id: Id, parameter: &dyn Fn(usize) -> f64) -> f64 {
-        let of = |id: Id| self.constant(id, parameter);
-        match self.graph.node(id) {
-            Node::Number(bits) => f64::from_bits(bits),
-            Node::Parameter(place) => parameter(place),
-            Node::Add(a, b) => of(a) + of(b),
-            Node::Sub(a, b) => of(a) - of(b),
-            Node::Mul(a, b) => of(a) * of(b),
-            Node::Div(a, b) => of(a) / of(b),
-            Node::Neg(a) => -of(a),
-            Node::Of(function, a) => function.value(of(a)),
-            Node::Max(a, b) => of(a).max(of(b)),
-            Node::Min(a, b) => of(a).min(of(b)),
-            _ => f64::NAN,
-        }
+        self.graph.constants(&|place| self.parameters[place].default)[id.index()]
     }
 }

@@ -3,7 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::text::content::{MOST_OF_A_KIND, MOST_STATES};
+use crate::text::content::{MOST_OF_A_KIND, MOST_PULSES, MOST_STATES};
 use crate::text::names::{Meaning, Names};
 use crate::text::written::{Source, Written, place_of};
 
@@ -45,7 +45,7 @@ impl<'t, 'a> Parsed<'t, 'a> {
             ("states", &parsed.states, MOST_STATES),
             ("switches", &parsed.switches, MOST_OF_A_KIND),
             ("frictions", &parsed.frictions, MOST_OF_A_KIND),
-            ("pulses", &parsed.pulses, MOST_OF_A_KIND),
+            ("pulses", &parsed.pulses, MOST_PULSES),
         ];
         for (what, entries, most) in kinds {
             if let Some(it) = entries.get(most) {

@@ -38,7 +38,8 @@ in_lanes! {
             let mut code = self.begin_event(guard, &mut due);
             let has_frictions = !self.program.frictions.is_empty();
             let needs_before = matches!(guard, Guard::Event(_) | Guard::Forward(_) | Guard::Backward(_));
-            let passes = [needs_before, has_frictions];
+            let moves_sides = matches!(guard, Guard::Event(event) if self.program.crosses[event]);
+            let passes = [needs_before, moves_sides, has_frictions];
             for (pass, is_needed) in passes.into_iter().enumerate() {
                 if !is_needed {
                     continue;
@@ -51,6 +52,7 @@ in_lanes! {
                     }
                     Guard::Forward(friction) => code = self.obey_friction((friction, true), &values, &mut due),
                     Guard::Backward(friction) => code = self.obey_friction((friction, false), &values, &mut due),
+                    Guard::Event(event) if pass == 1 => self.note_crossed(event, &values, &mut due),
                     Guard::Event(event) => {
                         self.note_moved(event, &values, &mut due);
                         self.note_jumps(due.here, &values, due.mode);
@@ -73,7 +75,9 @@ in_lanes! {
                         // The state moves: what another guard has left it may meet again at once.
                         *zero = L::select(here, L::splat(0.0), *zero);
                     }
-                    due.zeros[due.which] = L::select(here, one, due.zeros[due.which]);
+                    if self.program.text.events[event].stays_on_surface {
+                        due.zeros[due.which] = L::select(here, one, due.zeros[due.which]);
+                    }
                     code(if self.touches(bound) { EventKind::Impact } else { EventKind::Event }, event)
                 }
                 Guard::Switch(switch) => {
@@ -126,9 +130,32 @@ in_lanes! {
             }
         }
 
+        /// Notes on which side switches are that an event has taken the state across, and where it has taken it behind an event, which is
+        /// no number.
+        fn note_crossed(&self, event: usize, values: &Values<L>, due: &mut Due<'_, L, N>) {
+            let (zero, one) = (L::splat(0.0), L::splat(1.0));
+            let of = |place| at(place, &values.numbers, &values.registers);
+            let moved = &self.program.text.events[event].moved;
+            for (place, side) in self.program.sides.iter().enumerate() {
+                let value = of(*side);
+                let known = L::from_plain(due.mode.switches[place]);
+                let side = L::select(zero.lt(value), one, L::select(value.lt(zero), zero, known));
+                if moved.switches[place] {
+                    let own = &mut due.mode.switches[place];
+                    *own = L::Plain::select(due.here, side.plain(), *own);
+                }
+            }
+            for (place, lasts) in self.program.lasts.iter().enumerate() {
+                if moved.events[place] {
+                    let is_behind = due.here & of(*lasts).lt(zero);
+                    due.state[0] = L::select(is_behind, L::splat(f64::NAN), due.state[0]);
+                }
+            }
+        }
+
         /// Notes what frictions do where an event has moved what they are of.
         fn note_moved(&self, event: usize, values: &Values<L>, due: &mut Due<'_, L, N>) {
-            for (friction, moves) in self.program.moves[event].iter().enumerate() {
+            for (friction, moves) in self.program.text.events[event].moved.frictions.iter().enumerate() {
                 if *moves {
                     self.note_sign(friction, due.here, values, due.mode);
                 }
@@ -231,6 +258,8 @@ in_lanes! {
                 let passed =
                     L::select(first.lt(time), one, zero) + L::select(second.lt(time), one, zero);
                 mode.passed[place] = passed.plain();
+                // A duty that makes no pulse has no edges: no motion starts.
+                state[0] = L::select(first.le(*second), state[0], L::splat(f64::NAN));
             }
             // The forces on what rests are known once the switches are.
             for pass in 0..2 {

@@ -1,4 +1,4 @@
-//! The equations of a text as they are written, with the functions of a library: what the series are checked by.
+//! The values of a text at a point, one by one with the functions of a library: what the instructions and the series are checked by.
 
 use capsulemap_engine::flow::{Field, Switched};
 

@@ -287,8 +287,43 @@ impl Graph {
         }
     }
 
+    /// The constants where the parameters have these values by their places, in the order of the values; no numbers of others.
+    pub fn constants(&self, parameter: &dyn Fn(usize) -> f64) -> Vec<f64> {
+        let mut values: Vec<f64> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            let of = |id: Id| values[id.index()];
+            values.push(match *node {
+                Node::Number(bits) => f64::from_bits(bits),
+                Node::Parameter(place) => parameter(place),
+                Node::Add(a, b) => of(a) + of(b),
+                Node::Sub(a, b) => of(a) - of(b),
+                Node::Mul(a, b) => of(a) * of(b),
+                Node::Div(a, b) => of(a) / of(b),
+                Node::Neg(a) => -of(a),
+                Node::Of(function, a) => function.value(of(a)),
+                Node::Max(a, b) => of(a).max(of(b)),
+                Node::Min(a, b) => of(a).min(of(b)),
+                _ => f64::NAN,
+            });
+        }
+        values
+    }
+
     /// A value that grows evenly in time: what it is at time 0, and its rate; none where it is not one.
     pub fn line(&mut self, id: Id) -> Option<[Id; 2]> {
+        self.line_by(id, &mut HashMap::new())
+    }
+
+    fn line_by(&mut self, id: Id, known: &mut HashMap<Id, Option<[Id; 2]>>) -> Option<[Id; 2]> {
+        if let Some(known) = known.get(&id) {
+            return *known;
+        }
+        let found = self.found_line(id, known);
+        known.insert(id, found);
+        found
+    }
+
+    fn found_line(&mut self, id: Id, known: &mut HashMap<Id, Option<[Id; 2]>>) -> Option<[Id; 2]> {
         let zero = self.number(0.0);
         if self.level(id) != Level::Motion {
             return Some([id, zero]);
@@ -296,15 +331,15 @@ impl Graph {
         match self.node(id) {
             Node::Time => Some([zero, self.number(1.0)]),
             Node::Add(a, b) => {
-                let ([a, of_a], [b, of_b]) = (self.line(a)?, self.line(b)?);
+                let ([a, of_a], [b, of_b]) = (self.line_by(a, known)?, self.line_by(b, known)?);
                 Some([self.add(a, b), self.add(of_a, of_b)])
             }
             Node::Sub(a, b) => {
-                let ([a, of_a], [b, of_b]) = (self.line(a)?, self.line(b)?);
+                let ([a, of_a], [b, of_b]) = (self.line_by(a, known)?, self.line_by(b, known)?);
                 Some([self.sub(a, b), self.sub(of_a, of_b)])
             }
             Node::Neg(a) => {
-                let [a, of_a] = self.line(a)?;
+                let [a, of_a] = self.line_by(a, known)?;
                 Some([self.neg(a), self.neg(of_a)])
             }
             Node::Mul(a, b) => {
@@ -312,12 +347,8 @@ impl Graph {
                 if self.level(by) == Level::Motion {
                     return None;
                 }
-                let [of, rate] = self.line(of)?;
+                let [of, rate] = self.line_by(of, known)?;
                 Some([self.mul(by, of), self.mul(by, rate)])
-            }
-            Node::Div(a, b) if self.level(b) != Level::Motion => {
-                let [a, rate] = self.line(a)?;
-                Some([self.div(a, b), self.div(rate, b)])
             }
             _ => None,
         }

@@ -85,6 +85,15 @@ pub enum SeriesStep {
     Friction(usize, Register, Register),
 }
 
+/// Where an exponential in a function is too small to be seen beside one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unseen {
+    /// Where the argument is far below zero, as of the exponential itself.
+    Below,
+    /// Where its magnitude is large, as of the hyperbolic tangent.
+    Beyond,
+}
+
 /// What computes a register, or two.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Instruction {

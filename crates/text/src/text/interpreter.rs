@@ -87,8 +87,10 @@ in_lanes! {
                     return [exponential, zero];
                 }
                 let size = (one - exponential) / (one + exponential);
-                let tanh = L::select(x.lt(zero), -size, size);
-                [tanh, one - tanh * tanh]
+                let sum = one + exponential;
+                // One less the square, to all digits also where that is nearly one.
+                let slope = L::splat(4.0) * exponential / (sum * sum);
+                [L::select(x.lt(zero), -size, size), slope]
             }
         }
     }

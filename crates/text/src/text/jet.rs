@@ -7,7 +7,7 @@ use capsulemap_engine::lane::{Lane, Series, SideBySide};
 #[derive(Debug, Clone)]
 pub struct TextJet<L> {
     /// The registers of the program.
-    pub(crate) registers: Vec<Series<L>>,
+    pub registers: Vec<Series<L>>,
     /// The numbers of the case and of the mode.
     pub(crate) numbers: Vec<L>,
     /// The terms of one order of all registers.

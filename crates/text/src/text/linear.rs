@@ -15,41 +15,58 @@ pub struct Linear {
 
 /// A value as a linear function of the states with constants for factors; none where it is not one.
 pub fn linear(graph: &mut Graph, id: Id) -> Option<Linear> {
-    let zero = graph.number(0.0);
-    if graph.level(id) == Level::Case {
-        return Some(Linear { factors: Vec::new(), constant: id });
+    LinearForms::default().of(graph, id)
+}
+
+/// Linear forms of values that are known already, as a value may be used many times.
+#[derive(Debug, Default)]
+struct LinearForms {
+    known: HashMap<Id, Option<Linear>>,
+}
+
+impl LinearForms {
+    fn of(&mut self, graph: &mut Graph, id: Id) -> Option<Linear> {
+        if let Some(known) = self.known.get(&id) {
+            return known.clone();
+        }
+        let found = self.found(graph, id);
+        self.known.insert(id, found.clone());
+        found
     }
-    match graph.node(id) {
-        Node::State(place) => {
-            let one = graph.number(1.0);
-            Some(Linear { factors: vec![(place, one)], constant: zero })
+
+    fn found(&mut self, graph: &mut Graph, id: Id) -> Option<Linear> {
+        let zero = graph.number(0.0);
+        if graph.level(id) == Level::Case {
+            return Some(Linear { factors: Vec::new(), constant: id });
         }
-        Node::Add(a, b) => {
-            let [a, b] = [linear(graph, a)?, linear(graph, b)?];
-            Some(sum(graph, a, b))
-        }
-        Node::Sub(a, b) => {
-            let [a, b] = [linear(graph, a)?, linear(graph, b)?];
-            let less = scaled(b, |it| graph.neg(it));
-            Some(sum(graph, a, less))
-        }
-        Node::Neg(a) => {
-            let a = linear(graph, a)?;
-            Some(scaled(a, |it| graph.neg(it)))
-        }
-        Node::Mul(a, b) => {
-            let (constant, of) = if graph.level(a) == Level::Case { (a, b) } else { (b, a) };
-            if graph.level(constant) != Level::Case {
-                return None;
+        match graph.node(id) {
+            Node::State(place) => {
+                let one = graph.number(1.0);
+                Some(Linear { factors: vec![(place, one)], constant: zero })
             }
-            let of = linear(graph, of)?;
-            Some(scaled(of, |it| graph.mul(constant, it)))
+            Node::Add(a, b) => {
+                let [a, b] = [self.of(graph, a)?, self.of(graph, b)?];
+                Some(sum(graph, a, b))
+            }
+            Node::Sub(a, b) => {
+                let [a, b] = [self.of(graph, a)?, self.of(graph, b)?];
+                let less = scaled(b, |it| graph.neg(it));
+                Some(sum(graph, a, less))
+            }
+            Node::Neg(a) => {
+                let a = self.of(graph, a)?;
+                Some(scaled(a, |it| graph.neg(it)))
+            }
+            Node::Mul(a, b) => {
+                let (constant, of) = if graph.level(a) == Level::Case { (a, b) } else { (b, a) };
+                if graph.level(constant) != Level::Case {
+                    return None;
+                }
+                let of = self.of(graph, of)?;
+                Some(scaled(of, |it| graph.mul(constant, it)))
+            }
+            _ => None,
         }
-        Node::Div(a, b) if graph.level(b) == Level::Case => {
-            let a = linear(graph, a)?;
-            Some(scaled(a, |it| graph.div(it, b)))
-        }
-        _ => None,
     }
 }
 

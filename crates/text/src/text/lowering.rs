@@ -134,11 +134,6 @@ impl Making {
                 self.push(SeriesStep::Neg(a))
             }
             Node::Mul(a, b) => self.product(a, b),
-            Node::Div(a, b) if self.graph.level(b) != Level::Motion => {
-                let inverse = self.inverse(b);
-                let (inverse, a) = (self.scalar(inverse), self.register(a));
-                self.push(SeriesStep::Scale(inverse, a))
-            }
             Node::Div(a, b) => {
                 let (a, b) = (self.register(a), self.register(b));
                 self.push_growing(SeriesStep::Div(a, b))
@@ -146,11 +141,6 @@ impl Making {
             Node::Of(function, a) => self.function(function, a),
             _ => unreachable!("constants are no series"),
         }
-    }
-
-    fn inverse(&mut self, id: Id) -> Id {
-        let one = self.graph.number(1.0);
-        self.graph.div(one, id)
     }
 
     fn sum(&mut self, a: Id, b: Id) -> Register {
@@ -255,7 +245,6 @@ impl Making {
         match self.graph.node(id) {
             Node::Mul(a, b) if !self.is_series(a) => Some((a, b)),
             Node::Mul(a, b) if !self.is_series(b) => Some((b, a)),
-            Node::Div(a, b) if !self.is_series(b) => Some((self.inverse(b), a)),
             _ => None,
         }
     }

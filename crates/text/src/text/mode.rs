@@ -3,8 +3,13 @@
 use capsulemap_engine::flow::{Event, MAX_GUARDS};
 use capsulemap_engine::lane::{Lane, SideBySide};
 
-/// The most frictions, and the most pulses: each friction has two guards.
-pub const FEW: usize = MAX_GUARDS / 2;
+use crate::text::content::MOST_PULSES;
+
+/// The most frictions, each of which has two guards, and the most pulses.
+pub const FEW: usize = {
+    assert!(MOST_PULSES <= MAX_GUARDS / 2, "pulses have no more places than frictions");
+    MAX_GUARDS / 2
+};
 
 /// Which equations act in each lane.
 #[derive(Debug, Clone, Copy)]

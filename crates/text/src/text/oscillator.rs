@@ -153,10 +153,10 @@ in_lanes! {
         let (zero, one, start) = (L::splat(0.0), L::splat(1.0), L::splat(turns));
         let rises = if turns > 0.0 { one - start } else { zero };
         let falls = duty - start;
-        let is_on = falls.lt(zero);
-        let falls = L::select(is_on, falls + one, falls);
+        let has_fallen = falls.lt(zero);
+        let falls = L::select(has_fallen, falls + one, falls);
         // Before the section it is on where it has not fallen since it rose.
-        let before = L::select(is_on, zero, if turns > 0.0 { one } else { zero });
+        let before = L::select(has_fallen, zero, if turns > 0.0 { one } else { zero });
         let is_pulse = zero.lt(duty) & duty.lt(one);
         let period = L::select(is_pulse, period, L::splat(f64::NAN));
         let rises_first = rises.lt(falls);

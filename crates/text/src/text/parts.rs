@@ -3,7 +3,7 @@
 use toml::de::DeTable;
 
 use crate::text::content::{
-    Bound, Event, MOST_OF_A_KIND, Parameter, Pulse, Section, State, Switch,
+    Bound, Event, MOST_OF_A_KIND, Moved, Parameter, Pulse, Section, State, Switch,
 };
 use crate::text::entries::{Entry, Parsed, Value, entries, needed};
 use crate::text::graph::{Graph, Id};
@@ -163,7 +163,8 @@ fn event<'a>(
     }
     let lasts = lasts?;
     let bound = bound(&mut values.graph, lasts);
-    Some(Event { name: name?.characters, lasts, bound, reset: reset? })
+    let (stays_on_surface, moved) = (true, Moved::default());
+    Some(Event { name: name?.characters, lasts, bound, reset: reset?, stays_on_surface, moved })
 }
 
 pub(crate) fn section<'a>(

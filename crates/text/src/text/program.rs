@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
-use crate::text::content::{Event, Section, Text};
+use crate::text::content::{Section, Text};
 use crate::text::instructions::{
     Bounds, FrictionPlaces, Guard, Instruction, Place, Register, Scalar, ScalarStep, SeriesStep,
+    Unseen,
 };
 use crate::text::lowering::Making;
 
@@ -41,13 +42,15 @@ pub struct Program {
     pub guards: Vec<Guard>,
     /// The series whose decay sets the length of a step: the states, and what may grow within a step from below the rounding of others.
     pub paced: Vec<Register>,
-    /// The arguments of exponentials.
-    pub arguments: Vec<Register>,
+    /// The arguments of exponentials and of hyperbolic tangents, with where these are too small to be seen.
+    pub arguments: Vec<(Register, Unseen)>,
+    /// For how many coordinates a point of the section has room.
+    pub room: usize,
     /// Where each state is in the array of a motion: first those on the section, which have room for `D`, then the state that is zero on
     /// it, then the one that drifts.
     pub layout: Vec<usize>,
-    /// Of each event which frictions are of states that it moves.
-    pub moves: Vec<Vec<bool>>,
+    /// Of each event whether it may take the state across the surface of a switch, or of another event.
+    pub crosses: Vec<bool>,
     /// The state whose local extrema may touch surfaces, with these: at first one, or two.
     pub touching: Option<(usize, [Scalar; 2])>,
 }
@@ -56,6 +59,9 @@ impl Program {
     /// The instructions of a text.
     ///
     /// A point of its section has room for `room` coordinates.
+    ///
+    /// # Panics
+    /// Where it needs more.
     pub fn new(text: Text, room: usize) -> Self {
         let mut making = Making::new(&text);
         let rates: Vec<Place> = text.rates.iter().map(|it| making.place(*it)).collect();
@@ -80,10 +86,15 @@ impl Program {
         let guards = guards(&text);
         let touching = touching(&text, &bounds);
         let layout = layout(&text, room);
-        let moves = moves(&text);
+        let crosses = text.events.iter().map(|it| {
+            let moved = it.moved.switches.iter().chain(&it.moved.events);
+            moved.copied().any(|it| it)
+        });
+        let crosses = crosses.collect();
         let Making { scalars, of_mode, series, registers, growing, .. } = making;
         let argument = |it: &Instruction| match it.step {
-            SeriesStep::Exp(of) => Some(of),
+            SeriesStep::Exp(of) => Some((of, Unseen::Below)),
+            SeriesStep::Tanh(of) => Some((of, Unseen::Beyond)),
             _ => None,
         };
         let arguments = series.iter().filter_map(argument).collect();
@@ -108,8 +119,9 @@ impl Program {
             guards,
             paced,
             arguments,
+            room,
             layout,
-            moves,
+            crosses,
             touching,
         }
     }
@@ -166,16 +178,6 @@ fn layout(text: &Text, room: usize) -> Vec<usize> {
         None => room,
     };
     (0..text.states.len()).map(place).collect()
-}
-
-/// Of each event which frictions are of states that it moves.
-fn moves(text: &Text) -> Vec<Vec<bool>> {
-    let of = |event: &Event| {
-        let moved = |state: &usize| event.reset.iter().any(|it| it.0 == *state);
-        let frictions = text.frictions.iter();
-        frictions.map(|it| it.linear.factors.iter().any(|it| moved(&it.0))).collect()
-    };
-    text.events.iter().map(of).collect()
 }
 
 /// The guards of a text in their order.

@@ -15,8 +15,6 @@ use crate::text::written::{Source, place_of};
 
 /// Guards that a system has at most, its section included.
 const MOST_GUARDS: usize = capsulemap_engine::flow::MAX_GUARDS;
-/// Values in the graph of a text at most.
-const MOST_VALUES: usize = 4000;
 
 /// Reads the table `system` of a text.
 ///
@@ -65,15 +63,11 @@ fn of_table<'a>(source: &Source<'a>, table: &DeTable<'a>) -> Option<Text> {
     let mut values = Values::new(source, names, parsed.frictions.len());
     let found = Found::of(&mut values, &parsed, table);
     values.all_definitions();
-    if values.graph.len() > MOST_VALUES {
-        source.fault(place_of(table), format!("the text has more than {MOST_VALUES} values"));
-        return None;
-    }
     let graph = std::mem::take(&mut values.graph);
     let text = found?.text(source, &parsed, graph, name?.characters)?;
     check_guards(source, &text, place_of(table));
     check_dependence(source, &text, table);
-    Some(text)
+    Some(text.with_moved())
 }
 
 /// What was found in the expressions of a text; none of what is wrong.
@@ -139,7 +133,7 @@ impl Found {
             let entry = &parsed.frictions[place];
             let solved = at_rest(&mut graph, &self.rates, of, (place, self.frictions.len()));
             match solved {
-                Ok((linear, at_rest, _)) => frictions.push(Friction {
+                Ok((linear, at_rest)) => frictions.push(Friction {
                     name: entry.name.clone(),
                     of,
                     linear,
@@ -182,7 +176,7 @@ fn at_rest(
     rates: &[Id],
     of: Id,
     (place, count): (usize, usize),
-) -> Result<(Linear, Id, Id), String> {
+) -> Result<(Linear, Id), String> {
     let linear = linear(graph, of).filter(|it| !it.factors.is_empty());
     let Some(linear) = linear else {
         return Err("`of` must be a sum of states with constant factors".into());
@@ -205,7 +199,7 @@ fn at_rest(
         return Err("a friction may not act on what another one is of".into());
     }
     let force = graph.div(apart.without, factor);
-    Ok((linear, graph.neg(force), factor))
+    Ok((linear, graph.neg(force)))
 }
 
 fn check_guards(source: &Source<'_>, text: &Text, at: usize) {

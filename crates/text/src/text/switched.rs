@@ -7,7 +7,7 @@ use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, series};
 
 use crate::text::content::Section;
 use crate::text::events::Due;
-use crate::text::instructions::{Guard, Place};
+use crate::text::instructions::{Guard, Place, Unseen};
 use crate::text::interpreter::{carry_out, complete, series_of, slides};
 use crate::text::jet::TextJet;
 use crate::text::mode::{TextEvent, TextMode};
@@ -156,8 +156,8 @@ in_lanes! {
             _: f64,
         ) -> L::Plain {
             let mut bounded = length;
-            for argument in &self.program.arguments {
-                bounded = before_it_is_seen(&jet.registers[*argument], bounded);
+            for (argument, unseen) in &self.program.arguments {
+                bounded = before_it_is_seen(&jet.registers[*argument], *unseen, bounded);
             }
             bounded
         }
@@ -284,8 +284,16 @@ in_lanes! {
     /// The part of a step in which an exponential stays too small to be seen; all of it where it can be seen from the start.
     ///
     /// Method: the argument changes by no more than the sum of the magnitudes of its terms, which a halved step has at most half of.
-    fn before_it_is_seen<L: Lane>(argument: &Series<L>, length: L::Plain) -> L::Plain {
-        let far = L::Plain::splat(UNSEEN) - argument[0].plain();
+    fn before_it_is_seen<L: Lane>(
+        argument: &Series<L>,
+        unseen: Unseen,
+        length: L::Plain,
+    ) -> L::Plain {
+        let first = argument[0].plain();
+        let far = match unseen {
+            Unseen::Below => L::Plain::splat(UNSEEN) - first,
+            Unseen::Beyond => first.abs() + L::Plain::splat(0.5 * UNSEEN),
+        };
         let is_unseen = L::Plain::splat(0.0).lt(far);
         let mut length = length;
         if !is_unseen.any() {

@@ -5,6 +5,7 @@ use std::ptr;
 use capsulemap_engine::flow::{Metric, System};
 use capsulemap_engine::lane::Lane;
 
+use crate::text::content::Section;
 use crate::text::mode::{TextEvent, TextMode};
 use crate::text::oscillator::Oscillator;
 use crate::text::program::Program;
@@ -26,7 +27,13 @@ pub type Autonomous<const D: usize, const N: usize> = TextSystem<D, N, true>;
 
 impl<const D: usize, const N: usize, const AUTONOMOUS: bool> TextSystem<D, N, AUTONOMOUS> {
     /// The system of a program with its defaults, seen where a period begins.
+    ///
+    /// # Panics
+    /// Where the program has room for another number of coordinates, or a section of the other kind.
     pub fn new(program: &'static Program) -> Self {
+        let is_autonomous = matches!(program.text.section, Section::When { .. });
+        assert!(program.room == D && N == D + 2, "the program has room for {}", program.room);
+        assert!(is_autonomous == AUTONOMOUS, "the section of the text is of the other kind");
         let values = program.text.parameters.iter().map(|it| it.default).collect();
         TextSystem { program, values, turns: 0.0 }
     }

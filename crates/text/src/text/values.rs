@@ -5,6 +5,10 @@ use crate::text::graph::{Function, Graph, Id, Level, Node};
 use crate::text::names::{Meaning, Names, OF_TWO};
 use crate::text::written::{Source, Written, hint};
 
+/// Values of a text at most, so that what goes through them needs no more room than a thread has.
+const MOST_VALUES: usize = 2000;
+/// Definitions that use each other, one by the next, at most.
+const DEEPEST: usize = 100;
 /// The greatest whole power.
 const MOST_POWER: f64 = 64.0;
 
@@ -17,6 +21,8 @@ pub struct Values<'a, 's> {
     pub of_frictions: Vec<Option<Id>>,
     /// What the definitions are, once that is known, by their places.
     definitions: Vec<Definition>,
+    /// How many definitions are being computed, one for the next.
+    depth: usize,
 }
 
 /// How far a definition has come.
@@ -32,7 +38,7 @@ impl<'a, 's> Values<'a, 's> {
     pub fn new(source: &'s Source<'a>, names: Names, frictions: usize) -> Self {
         let definitions = vec![Definition::Waits; names.definitions.len()];
         let of_frictions = vec![None; frictions];
-        Values { source, names, graph: Graph::default(), of_frictions, definitions }
+        Values { source, names, graph: Graph::default(), of_frictions, definitions, depth: 0 }
     }
 
     /// The value of an expression; none where something in it is wrong.
@@ -80,6 +86,11 @@ impl<'a, 's> Values<'a, 's> {
     }
 
     fn of(&mut self, expression: &Expression) -> Option<Id> {
+        if self.graph.len() > MOST_VALUES {
+            let message = format!("the text has more than {MOST_VALUES} values");
+            self.source.fault(expression.at.start, message);
+            return None;
+        }
         match &expression.kind {
             Kind::Number(number) => Some(self.graph.number(*number)),
             Kind::Name(name) => self.named(name, expression.at.start),
@@ -121,10 +132,17 @@ impl<'a, 's> Values<'a, 's> {
                 self.source.fault(used_at.unwrap_or_default(), message);
                 None
             }
+            Definition::Waits if self.depth == DEEPEST => {
+                let message = format!("more than {DEEPEST} definitions use each other in a row");
+                self.source.fault(used_at.unwrap_or_default(), message);
+                None
+            }
             Definition::Waits => {
                 self.definitions[place] = Definition::Begun;
                 let written = self.names.definitions[place].1.clone();
+                self.depth += 1;
                 let id = self.value(&written);
+                self.depth -= 1;
                 self.definitions[place] = Definition::Is(id);
                 id
             }

@@ -76,14 +76,63 @@ fn what_cannot_be_is_refused_with_the_reason() {
         ("name = ", "drift = \"x\"\nname = ", "x cannot drift: the equations depend on it"),
         ("x = \"v\"\n", "", "the state x needs a rate"),
         ("c = 0.1", "c = d", "line"),
+        ("within = 100.0", "within = 0.0", "must be positive"),
     ] {
         let told = of(from, to);
         assert!(told.contains(reason), "{from} to {to}: {told}");
     }
+    let pulse = characters("pulse.toml");
+    let of = |from: &str, to: &str| faults(&pulse.replace(from, to)).join("; ");
+    for (from, to, reason) in [
+        ("D = 0.35", "D = 1.0", "the duty of on must be above 0 and below 1"),
+        ("period = \"T\"", "period = \"2*T\"", "must be that of the section"),
+        ("p_d*on\"", "p_d*on*cos(t)\"", "does not repeat after `every`"),
+        ("p_d*on\"", "p_d*on*cos((2*pi/T + w)*t)\"", "nothing is called"),
+        ("p_d*on\"", "p_d*on*t\"", "t may stand in sin and cos alone"),
+        (
+            "[system.rates]",
+            "[system.switch.s]\nwhere = \"r > 1e-3*on\"\n[system.rates]",
+            "may not depend on switches, pulses and frictions",
+        ),
+        (
+            "[system.friction.f]",
+            "[[system.events]]\nname = \"e\"\nwhile = \"r < 1\"\nreset = { x2 = \"0\" }\n[system.friction.f]",
+            "what drifts cannot be reset",
+        ),
+    ] {
+        let told = of(from, to);
+        assert!(told.contains(reason), "{from} to {to}: {told}");
+    }
+    let five: String =
+        (0..5).map(|i| format!("[system.pulse.p{i}]\nperiod = \"T\"\nduty = 0.5\n")).collect();
+    assert!(faults(&format!("{pulse}\n{five}")).join(" ").contains("more than 4 pulses"));
     let twice = "[system.definitions]\na1 = \"b1\"\nb1 = \"a1\"\n";
     assert!(
         faults(&format!("{belt}{twice}")).join(" ").contains("is defined by itself in the end")
     );
+}
+
+/// Texts that are too long are refused, and some that are just not are read.
+#[test]
+fn long_texts_are_refused_and_do_not_exhaust_the_stack() {
+    let belt = characters("belt.toml");
+    let with =
+        |definitions: String| faults(&format!("{belt}\n[system.definitions]\n{definitions}"));
+    let chain = |count: usize| -> String {
+        (1..count).map(|i| format!("d{i} = \"sin(d{})\"\n", i - 1)).collect()
+    };
+    assert!(with(format!("d0 = \"x\"\n{}", chain(90))).is_empty());
+    // In the order of the text each is known where the next asks for it; from its end none is.
+    assert!(with(format!("d0 = \"x\"\n{}", chain(1500))).is_empty());
+    let backward: String = chain(1500).lines().rev().map(|it| format!("{it}\n")).collect();
+    let told = with(format!("{backward}d0 = \"x\"\n")).join(" ");
+    assert!(told.contains("definitions use each other in a row"), "{told}");
+    let told = with(format!("d0 = \"x\"\n{}", chain(3000))).join(" ");
+    assert!(told.contains("more than 2000 values"), "{told}");
+    let sum = vec!["x"; 600].join("+");
+    assert!(with(format!("d0 = \"{sum}\"\n")).join(" ").contains("numbers, names and signs"));
+    let brackets = format!("{}x{}", "(".repeat(300), ")".repeat(300));
+    assert!(with(format!("d0 = \"{brackets}\"\n")).join(" ").contains("brackets and signs"));
 }
 
 /// What a mutant is made by: a place in the text, and what comes there in place of so many characters.

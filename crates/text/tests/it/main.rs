@@ -8,6 +8,7 @@ mod differences;
 #[path = "../../../engine/tests/it/draws.rs"]
 #[allow(dead_code)]
 mod draws;
+mod events;
 mod faults;
 mod random_texts;
 mod six;

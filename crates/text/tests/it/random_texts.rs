@@ -100,7 +100,7 @@ const SPRINGS: [&str; 6] = [
 const THIRD: [(&str, &str); 4] = [
     ("(x - z)/tau", " - 0.3*z"),
     ("(x*x - z)/tau", " - 0.2*z"),
-    ("tanh(v) - z/tau", " - 0.2*z"),
+    ("tanh(v/0.01) - z/tau", " - 0.2*z"),
     ("log(2 + x^2) - z/tau", " + 0.1*z"),
 ];
 

@@ -9,8 +9,9 @@ use super::drive::PiecewiseDrive;
 use super::folds::Folds;
 use super::ground::Ground;
 use super::springs::Springs;
-use super::state::{BACKWARD, EDGE, FRONT, FRONT_FORCE, GeneralJet, GeneralMode, REAR, REAR_FORCE};
-use super::switch::Due;
+use super::state::{
+    BACKWARD, Due, EDGE, FRONT, FRONT_FORCE, GeneralJet, GeneralMode, REAR, REAR_FORCE,
+};
 use crate::capsule::drag::Drag;
 use crate::capsule::parameter::Parameter;
 use crate::capsule::shape::Shape;

@@ -3,8 +3,7 @@
 use capsulemap_engine::lane::{Lane, Mask, ORDER};
 
 use super::equations::GeneralCapsule;
-use super::state::{FORWARD, GeneralJet, GeneralMode};
-use super::switch::Due;
+use super::state::{Due, FORWARD, GeneralJet, GeneralMode};
 use crate::capsule::locomotion::{Jump, direction};
 use crate::capsule::state::{EventKind, State, is_event};
 

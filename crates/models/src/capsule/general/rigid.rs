@@ -4,8 +4,7 @@ use capsulemap_engine::flow::Event;
 use capsulemap_engine::lane::{Lane, Mask, Series};
 
 use super::equations::GeneralCapsule;
-use super::state::{BACKWARD, FORWARD, FRONT, GeneralJet, GeneralMode, REAR};
-use super::switch::Due;
+use super::state::{BACKWARD, Due, FORWARD, FRONT, GeneralJet, GeneralMode, REAR};
 use crate::capsule::locomotion::{Jump, direction};
 use crate::capsule::state::{EventKind, State, is_event};
 

@@ -1,10 +1,11 @@
 //! What a motion of the family is made of beside the state: guards, mode and series.
 
+use capsulemap_engine::flow::Zeros;
 use capsulemap_engine::lane::{Lane, Mask, Series, series, side_by_side};
 
 use super::folds::FoldSeries;
 use super::springs::{Squares, Touched};
-use crate::capsule::state::{EventKind, Jet};
+use crate::capsule::state::{EventKind, Jet, State};
 
 /// Guard of the drive, the time until its next edge.
 pub(super) const EDGE: usize = 0;
@@ -146,4 +147,15 @@ impl<L: Lane> Default for GeneralJet<L> {
             until_edge: L::splat(0.0),
         }
     }
+}
+
+/// A guard that is due, with what its event changes.
+pub(super) struct Due<'a, L: Lane> {
+    /// In which lanes.
+    pub(super) here: L::Mask,
+    pub(super) mode: &'a mut GeneralMode<L>,
+    pub(super) state: &'a mut State<L>,
+    pub(super) zeros: &'a mut Zeros<L>,
+    /// When, since the start of the cycle [s].
+    pub(super) time: L,
 }

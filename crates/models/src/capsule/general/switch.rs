@@ -1,23 +1,12 @@
 //! How the modes of the family follow each other.
 
-use capsulemap_engine::flow::{Event, Zeros};
+use capsulemap_engine::flow::Event;
 use capsulemap_engine::lane::{Lane, Mask};
 
 use super::equations::GeneralCapsule;
-use super::state::{EDGE, FORWARD, FRONT, FRONT_FORCE, GeneralMode, REAR, REAR_FORCE};
+use super::state::{Due, EDGE, FORWARD, FRONT, FRONT_FORCE, GeneralMode, REAR, REAR_FORCE};
 use crate::capsule::locomotion::direction;
 use crate::capsule::state::{EventKind, State};
-
-/// A guard that is due, with what its event changes.
-pub(super) struct Due<'a, L: Lane> {
-    /// In which lanes.
-    pub(super) here: L::Mask,
-    pub(super) mode: &'a mut GeneralMode<L>,
-    pub(super) state: &'a mut State<L>,
-    pub(super) zeros: &'a mut Zeros<L>,
-    /// When, since the start of the cycle [s].
-    pub(super) time: L,
-}
 
 impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
     /// The mode of a state at a time, which is moved onto rest where it rests.
