@@ -67,7 +67,7 @@ reset = { v = \"-e*v\" }
     let back = -0.8 * arrives;
     let exact = back * libm::exp(-0.1 * (1.0 - time));
     assert!((v - exact).abs() < 1e-13, "{v} {exact}");
-    assert!((x - (1.0 + (back - exact) / -0.1)).abs() < 1e-12, "{x}");
+    assert!((x - (1.0 + (back - exact) / 0.1)).abs() < 1e-12, "{x}");
 }
 
 /// A smooth friction so steep that a step would see nothing of its layer.
