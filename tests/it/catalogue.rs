@@ -27,7 +27,7 @@ const DEFINING: [&str; 7] = [
 ];
 
 /// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
-const OTHERS: [(&str, &[&str], &str); 17] = [
+const OTHERS: [(&str, &[&str], &str); 18] = [
     ("src/study/study_file.rs", &["cycles", "attractor"], "keys of a study"),
     ("src/study/study_text.rs", KEYS, "keys of a study"),
     ("src/study/start_file.rs", &["direction"], "keys of a study"),
@@ -42,6 +42,7 @@ const OTHERS: [(&str, &[&str], &str); 17] = [
         "what the keys of quantities may name, which a test here compares",
     ),
     ("crates/models/src/quantity/units.rs", &["g"], "the gram"),
+    ("crates/text/src/text/parts.rs", &["period", "duty"], "keys of a text"),
     ("src/figure/text.rs", &["delta", "omega"], "names of symbols in TeX"),
     ("src/cli/simulate.rs", OPTIONS, "options of a command"),
     ("src/cli/phases.rs", &["start_phase", "section_phase"], "options of a command"),

@@ -11,6 +11,7 @@ pub mod graph;
 pub mod instructions;
 pub mod interpreter;
 pub mod jet;
+mod line;
 pub mod linear;
 mod lowering;
 pub mod mode;

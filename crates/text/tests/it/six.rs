@@ -138,7 +138,7 @@ fn the_belts_cycle_ends_where_it_fails_to_stick() {
 }
 
 #[test]
-fn the_valve_loses_its_stability_and_touches_its_seat() {
+fn the_valve_loses_its_stability_and_has_its_first_impact() {
     let text = characters("valve.toml");
     // The equilibrium, seen at equal times, is a fixed point.
     let at_equal_times = text.replace("{ when = \"y2 falls\", within = 200.0 }", "{ every = 0.5 }");
