@@ -74,7 +74,7 @@ impl Names {
 /// What something with a name is, in words.
 fn kind(meaning: Meaning) -> &'static str {
     match meaning {
-        Meaning::Time => "time",
+        Meaning::Time => "the time",
         Meaning::Pi => "a number",
         Meaning::State(_) => "a state",
         Meaning::Parameter(_) => "a parameter",
