@@ -3,7 +3,8 @@
 use toml::de::DeTable;
 
 use crate::text::content::{Event, MOST_OF_A_KIND, Section, Text};
-use crate::text::graph::{Function, Graph, Id, Level, Node};
+use crate::text::function::Function;
+use crate::text::graph::{Graph, Id, Level, Node};
 use crate::text::written::{Source, place_of};
 
 /// A multiple of a turn to this is one [turns].

@@ -5,7 +5,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::text::content::{MOST_OF_A_KIND, MOST_PULSES, MOST_STATES};
 use crate::text::names::{Meaning, Names};
-use crate::text::written::{Source, Written, place_of};
+use crate::text::written::{Source, Written, hint, place_of};
 
 /// A value with its place.
 pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
@@ -55,6 +55,17 @@ impl<'t, 'a> Parsed<'t, 'a> {
         parsed
     }
 
+    /// The place of the state called `name`; where there is none, that is noted.
+    pub(crate) fn state(&self, source: &Source<'a>, name: &str, at: usize) -> Option<usize> {
+        let place = self.states.iter().position(|it| it.name == name);
+        if place.is_none() {
+            let states = self.states.iter().map(|it| it.name.as_str());
+            let hint = hint(name, states.collect::<Vec<_>>());
+            source.fault(at, format!("there is no state {name:?}{hint}"));
+        }
+        place
+    }
+
     pub(crate) fn give_names(&self, source: &Source<'a>, names: &mut Names) {
         type Kind<'k, 't, 'a> = (&'k [Entry<'t, 'a>], fn(usize) -> Meaning);
         let kinds: [Kind<'_, '_, '_>; 6] = [
@@ -67,7 +78,7 @@ impl<'t, 'a> Parsed<'t, 'a> {
         ];
         for (entries, meaning) in kinds {
             for (place, it) in entries.iter().enumerate() {
-                names.give(source, (&it.name, it.at), meaning(place));
+                names.give(source, &it.name, it.at, meaning(place));
             }
         }
         for it in &self.definitions {

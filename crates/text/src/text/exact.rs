@@ -2,7 +2,8 @@
 
 use capsulemap_engine::flow::{Field, Switched};
 
-use crate::text::graph::{Function, Graph, Id, Node};
+use crate::text::function::Function;
+use crate::text::graph::{Graph, Id, Node};
 use crate::text::mode::TextMode;
 use crate::text::oscillator::Oscillator;
 

@@ -2,8 +2,7 @@
 
 use std::collections::HashMap;
 
-use capsulemap_engine::lane::Lane as _;
-use capsulemap_engine::lane::elementary;
+use crate::text::function::Function;
 
 /// A value in the graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -51,58 +50,6 @@ pub enum Node {
     Max(Id, Id),
     /// The lesser of two constants.
     Min(Id, Id),
-}
-
-/// A function of one value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Function {
-    /// Square root.
-    Sqrt,
-    /// Exponential.
-    Exp,
-    /// Natural logarithm.
-    Log,
-    /// Sine.
-    Sin,
-    /// Cosine.
-    Cos,
-    /// Hyperbolic tangent.
-    Tanh,
-    /// Magnitude, of constants.
-    Abs,
-}
-
-impl Function {
-    /// All by the names that texts have for them.
-    pub const NAMES: [(&'static str, Function); 7] = [
-        ("sqrt", Function::Sqrt),
-        ("exp", Function::Exp),
-        ("log", Function::Log),
-        ("sin", Function::Sin),
-        ("cos", Function::Cos),
-        ("tanh", Function::Tanh),
-        ("abs", Function::Abs),
-    ];
-
-    /// Its value, as every lane has it.
-    pub fn value(self, x: f64) -> f64 {
-        match self {
-            Function::Sqrt => x.sqrt(),
-            Function::Exp => elementary::exp(x),
-            Function::Log => elementary::log(x),
-            Function::Sin => elementary::sin_cos(x).0,
-            Function::Cos => elementary::sin_cos(x).1,
-            Function::Tanh => tanh(x),
-            Function::Abs => f64::abs(x),
-        }
-    }
-}
-
-/// The hyperbolic tangent by the exponential, which does not overflow.
-pub fn tanh(x: f64) -> f64 {
-    let decay = elementary::exp(-2.0 * f64::abs(x));
-    let size = (1.0 - decay) / (1.0 + decay);
-    f64::select(x < 0.0, -size, size)
 }
 
 /// How often a value changes.

@@ -1,6 +1,6 @@
 //! The instructions by which values are computed, and what they are asked for.
 
-use crate::text::graph::Function;
+use crate::text::function::Function;
 
 /// The place of a number that is not a series.
 pub type Scalar = usize;

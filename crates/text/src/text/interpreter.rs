@@ -2,9 +2,9 @@
 
 use capsulemap_engine::in_lanes;
 use capsulemap_engine::lane::series::{self, SquareRoot};
-use capsulemap_engine::lane::{Lane, Series, elementary};
+use capsulemap_engine::lane::{Lane, Series};
 
-use crate::text::graph::Function;
+use crate::text::function::{Function, elementary_of};
 use crate::text::instructions::{Instruction, Place, ScalarStep, SeriesStep};
 use crate::text::mode::TextMode;
 use crate::text::program::Program;
@@ -67,34 +67,6 @@ in_lanes! {
         }
     }
 
-    /// A function of a number, and what its series needs beside it: of a sine the cosine, of the hyperbolic tangent one less its square.
-    ///
-    /// Method: the hyperbolic tangent by an exponential that does not overflow. Each function of the lanes stands once, as it is long.
-    fn elementary_of<L: Lane>(function: Function, x: L) -> [L; 2] {
-        let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        match function {
-            Function::Sqrt => [x.sqrt(), zero],
-            Function::Abs => [x.abs(), zero],
-            Function::Log => [elementary::log(x), zero],
-            Function::Sin | Function::Cos => {
-                let (sin, cos) = elementary::sin_cos(x);
-                if function == Function::Sin { [sin, cos] } else { [cos, sin] }
-            }
-            Function::Exp | Function::Tanh => {
-                let is_tanh = function == Function::Tanh;
-                let exponential = elementary::exp(if is_tanh { -(x.abs() + x.abs()) } else { x });
-                if !is_tanh {
-                    return [exponential, zero];
-                }
-                let size = (one - exponential) / (one + exponential);
-                let sum = one + exponential;
-                // One less the square, to all digits also where that is nearly one.
-                let slope = L::splat(4.0) * exponential / (sum * sum);
-                [L::select(x.lt(zero), -size, size), slope]
-            }
-        }
-    }
-
     /// Where a friction slides.
     pub fn slides<L: Lane>(mode: &TextMode<L>, friction: usize) -> L::Mask {
         let sign = mode.signs[friction];
@@ -112,7 +84,7 @@ in_lanes! {
     ) {
         let register = it.register;
         if k > 0 && it.folds {
-            let [own, next] = later_term((register, it.step), (row, of), k);
+            let [own, next] = later_term(register, it.step, of, k);
             (row[register], of[register][k]) = (own, own);
             if it.is_pair {
                 (row[register + 1], of[register + 1][k]) = (next, next);
@@ -182,10 +154,11 @@ in_lanes! {
         x
     }
 
-    /// Term `k > 0` of what is folded from earlier ones, and that of the next register; the terms of order `k` are in `row`.
+    /// Term `k > 0` of what is folded from earlier ones, and that of the next register.
     fn later_term<L: Lane>(
-        (register, step): (usize, SeriesStep),
-        (row, of): (&[L], &mut [Series<L>]),
+        register: usize,
+        step: SeriesStep,
+        of: &mut [Series<L>],
         k: usize,
     ) -> [L; 2] {
         let zero = L::splat(0.0);
@@ -195,13 +168,7 @@ in_lanes! {
             SeriesStep::Div(a, b) => series::quotient_term(&of[a], &of[b], &of[register], k),
             SeriesStep::Sqrt(a) => SquareRoot::of(of[a][0]).term(&of[a], &of[register], k),
             SeriesStep::Exp(a) => series::slope_product_term(&of[a], &of[register], k),
-            SeriesStep::Log(a) => {
-                let mut sum = zero;
-                for j in 1..k {
-                    sum = sum + L::splat(j as f64) * of[register][j] * of[a][k - j];
-                }
-                (row[a] - sum * L::splat(series::INVERSE[k])) / of[a][0]
-            }
+            SeriesStep::Log(a) => series::log_term(&of[a], &of[register], k),
             SeriesStep::SinCos(a) => {
                 let next = -series::slope_product_term(&of[a], &of[register], k);
                 return [series::slope_product_term(&of[a], &of[register + 1], k), next];

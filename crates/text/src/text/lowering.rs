@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use crate::text::content::{Bound, Text};
-use crate::text::graph::{Function, Graph, Id, Level, Node};
+use crate::text::function::Function;
+use crate::text::graph::{Graph, Id, Level, Node};
 use crate::text::instructions::{
     FrictionPlaces, Instruction, Place, Register, Scalar, ScalarStep, SeriesStep,
 };

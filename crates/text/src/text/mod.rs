@@ -7,6 +7,7 @@ mod events;
 mod exact;
 pub mod expression;
 pub mod fault;
+pub mod function;
 pub mod graph;
 pub mod instructions;
 pub mod interpreter;

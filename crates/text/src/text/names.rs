@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::text::expression::is_name;
-use crate::text::graph::Function;
+use crate::text::function::Function;
 use crate::text::written::{Source, Written, hint};
 
 /// Names that have a meaning in every text.
@@ -49,7 +49,7 @@ impl Names {
     }
 
     /// Gives a name a meaning, or notes why it cannot have it.
-    pub fn give(&mut self, source: &Source<'_>, (name, at): (&str, usize), meaning: Meaning) {
+    pub fn give(&mut self, source: &Source<'_>, name: &str, at: usize, meaning: Meaning) {
         let is_function = Function::NAMES.iter().map(|it| it.0).chain(OF_TWO).any(|it| it == name);
         if !is_name(name) {
             let message = format!("{name:?} is no name: letters, digits and _, no digit first");

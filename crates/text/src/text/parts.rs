@@ -91,12 +91,7 @@ pub(crate) fn rates<'a>(
     let source = values.source;
     let entries = entries(source, table, "rates");
     for it in &entries {
-        if parsed.states.iter().all(|state| state.name != it.name) {
-            let states = parsed.states.iter().map(|it| it.name.as_str());
-            let states: Vec<&str> = states.collect();
-            let message = format!("there is no state {:?}{}", it.name, hint(&it.name, states));
-            source.fault(it.at, message);
-        }
+        parsed.state(source, &it.name, it.at);
     }
     let mut rates = Vec::new();
     for state in &parsed.states {
@@ -147,17 +142,11 @@ fn event<'a>(
     let lasts = condition.and_then(|it| values.excess(&it));
     let mut reset = Some(Vec::new());
     for it in entries(source, table, "reset") {
-        let state = parsed.states.iter().position(|state| state.name == it.name);
+        let state = parsed.state(source, &it.name, it.at);
         let written = source.expression(it.value, &it.name);
         let value = written.and_then(|it| values.value(&it));
         match (state, value, &mut reset) {
             (Some(state), Some(value), Some(known)) => known.push((state, value)),
-            (None, ..) => {
-                let states: Vec<&str> = parsed.states.iter().map(|it| it.name.as_str()).collect();
-                let message = format!("there is no state {:?}{}", it.name, hint(&it.name, states));
-                source.fault(it.at, message);
-                reset = None;
-            }
             _ => reset = None,
         }
     }
@@ -228,13 +217,7 @@ pub(crate) fn drift<'a>(
 ) -> Option<Option<usize>> {
     let Some(value) = table.get("drift") else { return Some(None) };
     let name = source.string(value, "drift")?;
-    let place = parsed.states.iter().position(|it| it.name == name.characters);
-    if place.is_none() {
-        let states: Vec<&str> = parsed.states.iter().map(|it| it.name.as_str()).collect();
-        let hint = hint(&name.characters, states);
-        source.fault(name.at, format!("there is no state {:?}{hint}", name.characters));
-    }
-    place.map(Some)
+    parsed.state(source, &name.characters, name.at).map(Some)
 }
 
 pub(crate) fn state<'a>(source: &Source<'a>, it: &Entry<'_, 'a>) -> Option<State> {

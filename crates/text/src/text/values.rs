@@ -1,7 +1,8 @@
 //! Expressions as values of the graph: names looked up, definitions in their places.
 
 use crate::text::expression::{Condition, Expression, Kind, Operator, condition, expression};
-use crate::text::graph::{Function, Graph, Id, Level, Node};
+use crate::text::function::Function;
+use crate::text::graph::{Graph, Id, Level, Node};
 use crate::text::names::{Meaning, Names, OF_TWO};
 use crate::text::written::{Source, Written, hint};
 
