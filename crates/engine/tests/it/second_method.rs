@@ -230,18 +230,22 @@ impl Second<'_> {
             .filter(|(_, value)| *value < 0.0)
             .map(|(guard, _)| guard)
             .collect();
-        let first = negative.into_iter().map(|guard| (self.located(t, state, h, guard).0, guard));
-        if let Some((_, guard)) = first.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            return Some(Some(guard));
-        }
+        let located = negative.into_iter().map(|guard| (self.located(t, state, h, guard), guard));
+        let first = located.min_by(|a, b| a.0.0.total_cmp(&b.0.0));
+        // Another guard may have dipped before the first that stays below zero.
+        let (until, there, passes) = match first {
+            Some(((root, there), guard)) => (root, there, Some(guard)),
+            None => (h, *end, None),
+        };
         let falling = self.rates_of_guards(t, state);
-        let rising = self.rates_of_guards(t + h, end);
+        let rising = self.rates_of_guards(t + until, &there);
         let turns = self.guards(t, state).into_iter().zip(falling.iter().zip(&rising)).any(
             |((guard, value), (before, after))| {
-                fired != Some(guard) && *before < 0.0 && *after > 0.0 && value + before * h < 0.0
+                let is_known = fired == Some(guard) || passes == Some(guard);
+                !is_known && *before < 0.0 && *after > 0.0 && value + before * until < 0.0
             },
         );
-        if turns && h > 1e-9 / self.omega() { None } else { Some(None) }
+        if turns && h > 1e-9 / self.omega() { None } else { Some(passes) }
     }
 
     /// When a guard that is below zero at the end of a step passes zero, and the state then.
@@ -355,7 +359,7 @@ impl Second<'_> {
         self.slip = sign(state[3]);
     }
 
-    /// An impact on the rigid stop: momentum stays, the relative velocity turns round; where what follows is over within 1e-8 of the
+    /// An impact on the rigid stop: momentum stays, the relative velocity turns round; where what follows is over within 1e-7 of the
     /// period, the mass stays at the stop, as shorter flights are rounding here.
     fn bounce(&mut self, t: f64, state: &mut Vector) {
         let [m1, m2, e] =
@@ -370,7 +374,7 @@ impl Second<'_> {
         self.slip = sign(state[3]);
         let rates = self.rates(t, state);
         let pressed = rates[1] - rates[3];
-        let lasting = 1e-8 * 2.0 * std::f64::consts::PI / self.omega();
+        let lasting = 1e-7 * 2.0 * std::f64::consts::PI / self.omega();
         if pressed > 0.0 && 2.0 * back <= pressed * (1.0 - e) * lasting {
             (state[1], state[3]) = with(0.0);
             self.slip = sign(state[3]);
