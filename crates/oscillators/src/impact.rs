@@ -108,7 +108,12 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         output(("section_residual", "SectionResidual"), "how far the section is from repeating"),
     ],
     roles: Roles {
-        drive: Some(DriveRoles { frequency: 2, period: None, amplitude: 1 }),
+        drive: Some(DriveRoles {
+            frequency: Some(2),
+            period: None,
+            amplitude: Some(1),
+            cycle: None,
+        }),
         impact_surface: Some(4),
         rear_surface: None,
         natural: None,
@@ -123,6 +128,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         section_residual: 5,
     },
     rules: Rules::NONE,
+    made_of: None,
 };
 
 impl Face<2> for Impactor<f64> {

@@ -102,9 +102,10 @@ const ON_EVEN_GROUND: Description = Description {
     outputs: OUTPUTS.split_at(Output::ALL.len()).0,
     roles: Roles {
         drive: Some(DriveRoles {
-            frequency: Parameter::Omega as usize,
+            frequency: Some(Parameter::Omega as usize),
             period: Some(Parameter::Period as usize),
-            amplitude: Parameter::Pd as usize,
+            amplitude: Some(Parameter::Pd as usize),
+            cycle: None,
         }),
         impact_surface: Some(Parameter::Delta as usize),
         rear_surface: Some(Parameter::Delta3 as usize),
@@ -136,6 +137,7 @@ const ON_EVEN_GROUND: Description = Description {
         section_residual: Output::SectionResidual as usize,
     },
     rules: RULES,
+    made_of: None,
 };
 
 /// The capsule on a way with evenly spaced folds. Its displacement drifts, as on even ground; its place between two folds is a

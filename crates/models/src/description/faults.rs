@@ -70,7 +70,8 @@ impl Description {
 
     fn faults_of_roles(&self) -> Vec<String> {
         let roles = &self.roles;
-        let drive = roles.drive.iter().flat_map(|it| [it.frequency, it.amplitude]);
+        let drive =
+            roles.drive.iter().flat_map(|it| [it.frequency, it.amplitude, it.period]).flatten();
         let parameters = drive
             .chain(roles.impact_surface)
             .chain(roles.rear_surface)

@@ -12,6 +12,7 @@ pub mod rules;
 pub mod section;
 pub mod state;
 
+use std::any::Any;
 use std::fmt::{self, Debug, Formatter};
 
 use crate::quantity::Quantity;
@@ -60,6 +61,23 @@ pub struct Description {
     pub roles: Roles,
     /// What it says of values beside each other.
     pub rules: Rules,
+    /// What its systems are made of beside the values of their parameters, as a text; none where the program has all of it.
+    pub made_of: Option<MadeOf>,
+}
+
+/// What the systems of a model are made of beside the values of their parameters.
+#[derive(Clone, Copy)]
+pub struct MadeOf {
+    /// It, for those who know what it is.
+    pub content: &'static (dyn Any + Send + Sync),
+    /// The tables of a study that say it, which differ where it does.
+    pub tables: &'static str,
+}
+
+impl Debug for MadeOf {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("MadeOf").field(&self.tables).finish()
+    }
 }
 
 /// A description is one only with itself.
@@ -81,6 +99,14 @@ impl Description {
     /// Whether what one of two models has at a place is what the other has there, as they are one model or one extends the other.
     pub(crate) fn shares_with(&'static self, other: &'static Description) -> bool {
         self == other || self.extends == Some(other) || other.extends == Some(self)
+    }
+
+    /// The point of its section with these coordinates; what is behind them is left out.
+    ///
+    /// # Panics
+    /// Where there are fewer than it has.
+    pub fn section_point(&self, coordinates: &[f64]) -> Section {
+        Section::new(&coordinates[..self.section.len()])
     }
 
     /// Every parameter, in the order of tables and files.

@@ -142,9 +142,12 @@ impl Parameters {
 
     /// The period of the drive [s]; none of a model without one.
     pub fn period_of_drive(&self) -> Option<f64> {
-        let by_frequency = 2.0 * PI / self[self.model.drive_frequency()?];
+        if let Some(cycle) = self.model.roles.drive?.cycle {
+            return Some(cycle(self));
+        }
         let by_period = self.model.drive_period().filter(|it| self.is_given(*it));
-        Some(by_period.map_or(by_frequency, |it| self[it]))
+        let by_frequency = || Some(2.0 * PI / self[self.model.drive_frequency()?]);
+        by_period.map_or_else(by_frequency, |it| Some(self[it]))
     }
 
     /// Every value that is not allowed.

@@ -1,9 +1,9 @@
 //! What some outputs and parameters of a model are for, so that the program need not know them by name.
 
-use super::{Description, Output, Parameter};
+use super::{Description, Output, Parameter, Parameters};
 
 /// Places among the outputs of a model, and among its parameters, of those that the program does more with than to show them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Roles {
     /// The drive, if there is one.
     pub drive: Option<DriveRoles>,
@@ -34,14 +34,16 @@ pub struct Roles {
 }
 
 /// Places among the parameters of a model of those of its drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub struct DriveRoles {
-    /// Its frequency; a cycle is one of its periods.
-    pub frequency: usize,
+    /// Its frequency, if there is such a parameter; a cycle is one of its periods.
+    pub frequency: Option<usize>,
     /// Its period, which stands for the frequency where it is given, if there is such a parameter.
     pub period: Option<usize>,
-    /// Its amplitude, that of a force.
-    pub amplitude: usize,
+    /// Its amplitude, that of a force, if there is such a parameter.
+    pub amplitude: Option<usize>,
+    /// How long a cycle lasts [s], where that follows from the parameters in another way.
+    pub cycle: Option<fn(&Parameters) -> f64>,
 }
 
 /// Places among the outputs of a model of what a motion gains and costs.
@@ -112,9 +114,9 @@ impl Description {
         self.roles.drive.is_some()
     }
 
-    /// The frequency of the drive, of which a cycle is a period, if there is one.
+    /// The frequency of the drive, of which a cycle is a period, if there is such a parameter.
     pub fn drive_frequency(&'static self) -> Option<Parameter> {
-        self.roles.drive.map(|it| Parameter::of(self, it.frequency))
+        self.roles.drive.and_then(|it| it.frequency).map(|place| Parameter::of(self, place))
     }
 
     /// The period of the drive, which stands for its frequency where it is given, if there is such a parameter.
@@ -122,9 +124,9 @@ impl Description {
         self.roles.drive.and_then(|it| it.period).map(|place| Parameter::of(self, place))
     }
 
-    /// The amplitude of the drive, that of a force, if there is one.
+    /// The amplitude of the drive, that of a force, if there is such a parameter.
     pub fn drive_amplitude(&'static self) -> Option<Parameter> {
-        self.roles.drive.map(|it| Parameter::of(self, it.amplitude))
+        self.roles.drive.and_then(|it| it.amplitude).map(|place| Parameter::of(self, place))
     }
 
     /// The value of the first coordinate on the surface of impacts, if there is one.

@@ -6,7 +6,7 @@ use std::ops::{Deref, DerefMut};
 use serde::{Serialize, Serializer};
 
 /// Coordinates of a section, at most.
-pub const MOST_COORDINATES: usize = 6;
+pub const MOST_COORDINATES: usize = 8;
 
 /// A point of the section (SI), in the order of the coordinates of its model; it reads as a slice.
 #[derive(Clone, Copy)]
@@ -27,13 +27,13 @@ impl Section {
         Section { count: coordinates.len() as u8, values }
     }
 
-    /// Its coordinates.
+    /// Its coordinates; where there is room for more, zeros after them.
     ///
     /// # Panics
-    /// Where it has another number of them.
+    /// Where there is room for fewer.
     pub fn array<const D: usize>(&self) -> [f64; D] {
-        let coordinates: &[f64] = self;
-        coordinates.try_into().expect("a section point of the model")
+        assert!(self.len() <= D, "a section point of the model");
+        std::array::from_fn(|place| self.get(place).copied().unwrap_or(0.0))
     }
 }
 

@@ -7,7 +7,8 @@ use crate::description::{Description, Parameter, Parameters};
 
 /// What does not fit together in the description of a system, or between the two, each in a sentence; nothing where all does.
 pub fn faults<M: Face<D>, const D: usize>(description: &'static Description) -> Vec<String> {
-    let faults = description.faults(D);
+    let dimension = if M::HAS_ROOM { description.section.len().min(D) } else { D };
+    let faults = description.faults(dimension);
     if !faults.is_empty() {
         // What else is asked here goes by the places that these are about.
         return faults;

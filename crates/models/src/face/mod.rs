@@ -9,7 +9,7 @@ use capsulemap_engine::flow::{Reason, Step, System};
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{self, Certificate, OrbitOf, Outcome, Protocol};
 
-use crate::description::{Description, Outputs, Parameter, Parameters, Section, State};
+use crate::description::{Description, Outputs, Parameter, Parameters, State};
 use crate::motion::branch::{Found, Request};
 use crate::motion::{Case, Orbit, Sensitivity, Setting};
 
@@ -19,6 +19,9 @@ pub use stretch::{arc, samples};
 
 /// A system with a face.
 pub trait Face<const D: usize>: System<D> + 'static {
+    /// Whether a point of the section has room for more coordinates than the description has.
+    const HAS_ROOM: bool = false;
+
     /// What it says of itself.
     fn description(&self) -> &'static Description;
 
@@ -115,6 +118,8 @@ pub fn orbit_of<M: Face<D>, const D: usize>(
     protocol: &Protocol,
 ) -> Orbit {
     let system = M::of(&case.parameters, case.section_phase);
+    let model = system.description();
+    let told = |point: [f64; D]| model.section_point(&point);
     let orbit = M::judged(orbit, case, protocol);
     let orbit =
         OrbitOf::<M, D> { failure: orbit.failure.map(|it| explained::<M, D>(it, case)), ..orbit };
@@ -124,15 +129,17 @@ pub fn orbit_of<M: Face<D>, const D: usize>(
     };
     let outputs = match orbit.failure {
         None => system.outputs(&orbit, protocol.recurrence),
-        Some(_) => Outputs::unknown(system.description()),
+        Some(_) => Outputs::unknown(model),
     };
+    let mut certificate = orbit.certificate.map(told);
+    certificate.multipliers.truncate(model.section.len());
     Orbit {
         outcome: orbit.outcome,
         period: orbit.period,
-        certificate: orbit.certificate.map(Section::from),
+        certificate,
         cycles: orbit.cycles,
         outputs,
-        section: orbit.section.into_iter().map(Section::from).collect(),
+        section: orbit.section.into_iter().map(told).collect(),
         impacts: M::impacts(&orbit.observed),
         history,
         end: system.told(&orbit.end),
@@ -220,11 +227,16 @@ pub fn follow<M: Face<D>, const D: usize>(request: &Request) -> Result<Found, No
         tolerance: *tolerance,
     })?;
     let Protocol { recurrence, .. } = Protocol::with_tolerance(*tolerance);
-    Ok(found.map(
+    let model = system.description();
+    let mut found = found.map(
         |value, orbit: Option<OrbitOf<M, D>>| match orbit {
             Some(orbit) => system.with(M::which(*along), value).outputs(&orbit, recurrence),
-            None => Outputs::unknown(system.description()),
+            None => Outputs::unknown(model),
         },
-        Into::into,
-    ))
+        |point| model.section_point(&point),
+    );
+    for point in found.branches.iter_mut().flat_map(|it| &mut it.points) {
+        point.multipliers.truncate(model.section.len());
+    }
+    Ok(found)
 }

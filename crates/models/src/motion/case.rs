@@ -25,12 +25,21 @@ impl Case {
 
     /// Time of the start since the last passage of the section phase [s]; zero where the phases are equal, and without a drive.
     pub fn start_time(&self) -> f64 {
-        let Some(frequency) = self.parameters.model().drive_frequency() else { return 0.0 };
-        let frequency = self.parameters[frequency];
         let turned = reduced(self.start_phase - self.section_phase);
-        let time = turned / frequency;
+        let model = self.parameters.model();
+        let by_period = model.drive_period().is_some_and(|it| self.parameters.is_given(it));
+        let (time, period) = match model.drive_frequency().filter(|_| !by_period) {
+            Some(frequency) => {
+                let frequency = self.parameters[frequency];
+                (turned / frequency, 2.0 * PI / frequency)
+            }
+            None => {
+                let Some(period) = self.parameters.period_of_drive() else { return 0.0 };
+                (turned / (2.0 * PI) * period, period)
+            }
+        };
         // A phase that is less by rounding alone is a whole turn ahead.
-        if time < 2.0 * PI / frequency { time } else { 0.0 }
+        if time < period { time } else { 0.0 }
     }
 }
 

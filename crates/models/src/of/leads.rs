@@ -90,7 +90,10 @@ impl<M: Face<D>, const D: usize> Leads for LeadsOf<M, D> {
             leads: &|points| self.lead_to(points),
         };
         let met = search.saddle(points.map(|it| it.array()))?;
-        Some(met.map(Into::into))
+        let model = self.system.description();
+        let mut met = met.map(|point| model.section_point(&point));
+        met.saddle.multipliers.truncate(model.section.len());
+        Some(met)
     }
 
     fn shock(&self, number: u32, points: &[Section], towards: &Section) -> Option<f64> {

@@ -34,7 +34,8 @@ use crate::motion::{
 };
 
 pub use registry::{
-    NotRegistered, all_models, default_model, model_called, model_of, register, settle_case,
+    NotRegistered, all_models, default_model, make_known, model_called, model_of, register,
+    settle_case,
 };
 
 /// A system with a face, as a model.
@@ -47,6 +48,11 @@ impl<M, const D: usize> Of<M, D> {
     /// The model of systems of this kind that are described so.
     pub const fn described(description: &'static Description) -> Self {
         Of { description, systems: PhantomData }
+    }
+
+    /// A section point as the description has it.
+    fn point(&self, coordinates: [f64; D]) -> Section {
+        self.description.section_point(&coordinates)
     }
 }
 
@@ -108,7 +114,7 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
     }
 
     fn scales(&self, setting: &Setting) -> Section {
-        system::<M, D>(setting).metric().scales.into()
+        self.point(system::<M, D>(setting).metric().scales)
     }
 
     fn settle(&self, case: &Case, protocol: &Protocol, known: Option<&Known>) -> Orbit {
@@ -157,7 +163,7 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
     ) -> Option<Attractor<Section>> {
         let motion = motion.map(|it| it.array());
         let found = Attractor::of(case, &system::<M, D>(setting), &motion, protocol)?;
-        Some(found.map(Into::into))
+        Some(found.map(|point| self.point(point)))
     }
 
     fn least_point(&self, setting: &Setting, attractor: &Attractor<Section>) -> usize {
@@ -173,7 +179,7 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
         executor: &dyn Executor,
     ) -> Table<Section> {
         let (at, system) = (at::<D>(motions), system::<M, D>(setting));
-        Table::sort(motions.count, at, &system, protocol, executor).map(Into::into)
+        Table::sort(motions.count, at, &system, protocol, executor).map(|point| self.point(point))
     }
 
     fn extend_table(
@@ -187,7 +193,7 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
         let mut extended = std::mem::take(table).map(|it| it.array());
         let (at, system) = (at::<D>(motions), system::<M, D>(setting));
         extended.extend(motions.count, at, &system, protocol, executor);
-        *table = extended.map(Into::into);
+        *table = extended.map(|point| self.point(point));
     }
 
     fn linear_orbits(
@@ -211,12 +217,14 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
         next: &mut dyn FnMut() -> Option<(usize, Unlinked)>,
         done: &mut dyn FnMut(),
     ) -> Vec<(usize, Links<Section>)> {
+        let model = self.description;
         let computations = iter::from_fn(next).map(|(place, unlinked)| {
             let Unlinked { neighbours: cells, linear } = unlinked;
             let neighbours = neighbours::<M, D>(cells);
             move |integrator: &Integration<'_, M, D>| {
                 let [before, after] = linear.each_ref().map(linear_of::<M, D>);
-                (place, neighbours.link(integrator, [before, after]).map(Into::into))
+                let links = neighbours.link(integrator, [before, after]);
+                (place, links.map(|point| model.section_point(&point)))
             }
         });
         Batch::all(instructions, computations, done)
@@ -234,7 +242,7 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
             links.iter().map(|it| it.clone().map(|point| point.array())).collect();
         let bridges =
             attractor::bridges(&cells, &links, |at| between(at).map(neighbours::<M, D>), executor);
-        bridges.into_iter().map(|it| it.map(Into::into)).collect()
+        bridges.into_iter().map(|it| it.map(|point| self.point(point))).collect()
     }
 
     fn leads(
@@ -269,7 +277,7 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
     ) -> Option<Vec<Section>> {
         let mut points = vec![from.array()];
         append_points(&system::<M, D>(setting), &mut points, cycles as usize, tolerance)?;
-        Some(points.into_iter().map(Into::into).collect())
+        Some(points.into_iter().map(|point| self.point(point)).collect())
     }
 
     fn stable_orbit(
@@ -302,7 +310,10 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
     fn segment(&self, it: &Along, from: (f64, &[Section]), to: f64) -> Option<Segment<Section>> {
         let (value, points) = from;
         let from = (value, &arrays(points)[..]);
-        Some(branch::segment(&OneByOne, &along::<M, D>(it), from, to)?.map(Into::into))
+        Some(
+            branch::segment(&OneByOne, &along::<M, D>(it), from, to)?
+                .map(|point| self.point(point)),
+        )
     }
 
     fn batches(

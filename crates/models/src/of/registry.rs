@@ -18,6 +18,9 @@ const OWN: [&Description; 2] = [&CAPSULE, &CAPSULE_OVER_FOLDS];
 /// Those beside the capsule, in the order in which they were registered.
 static OTHERS: RwLock<Vec<&'static dyn Model>> = RwLock::new(Vec::new());
 
+/// Those that studies do not name.
+static UNNAMED: RwLock<Vec<&'static dyn Model>> = RwLock::new(Vec::new());
+
 /// Why a model is not made known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NotRegistered {
@@ -61,6 +64,22 @@ pub fn register(model: &'static dyn Model) -> Result<(), NotRegistered> {
     Ok(())
 }
 
+/// Makes a model known that studies do not name, as they have what it is made of; one that is known already stays.
+///
+/// # Errors
+/// Where its description does not fit together, or not with the system.
+pub fn make_known(model: &'static dyn Model) -> Result<(), NotRegistered> {
+    let faults = model.faults();
+    if !faults.is_empty() {
+        return Err(NotRegistered::Unfit(model.description().name, faults));
+    }
+    let mut unnamed = UNNAMED.write().unwrap_or_else(PoisonError::into_inner);
+    if unnamed.iter().all(|it| it.description() != model.description()) {
+        unnamed.push(model);
+    }
+    Ok(())
+}
+
 /// The models that studies can name, that of studies which name none first.
 pub fn all_models() -> Vec<&'static Description> {
     let others = OTHERS.read().unwrap_or_else(PoisonError::into_inner);
@@ -93,9 +112,11 @@ pub fn model_of(parameters: &Parameters) -> &'static dyn Model {
             Form::OverFolds => &OVER_FOLDS,
         };
     }
-    let others = OTHERS.read().unwrap_or_else(PoisonError::into_inner);
-    let found = others.iter().find(|it| it.description() == description);
-    *found.unwrap_or_else(|| panic!("the model {} is not registered", description.name))
+    let found = [&OTHERS, &UNNAMED].into_iter().find_map(|known| {
+        let known = known.read().unwrap_or_else(PoisonError::into_inner);
+        known.iter().find(|it| it.description() == description).copied()
+    });
+    found.unwrap_or_else(|| panic!("the model {} is not registered", description.name))
 }
 
 /// What a case settles to, see [`Model::settle`].

@@ -23,7 +23,7 @@ pub(super) fn orbit<M: Face<D>, const D: usize>(
     cycles: Cycles,
 ) -> Option<StableOrbit> {
     let closed = closed_exactly(&system, guess, &cycles)?;
-    let multipliers = eigenvalues(&closed.jacobian);
+    let (model, multipliers) = (system.description(), eigenvalues(&closed.jacobian));
     let is_stable = multipliers[0].abs() < 1.0;
     if closed.residual > EXACT || !is_stable {
         return None;
@@ -39,8 +39,8 @@ pub(super) fn orbit<M: Face<D>, const D: usize>(
     });
     let events = cyclic(&passed.ok()?.events);
     Some(StableOrbit {
-        section: section.into(),
-        multipliers: multipliers.to_vec(),
+        section: model.section_point(&section),
+        multipliers: multipliers[..model.section.len()].to_vec(),
         impacts: events.iter().filter(|event| event.is_impact()).count(),
         events: events.iter().map(|event| event.number()).collect(),
     })

@@ -44,10 +44,12 @@ pub enum Dimension {
     ForcePerCurrent,
     /// A plain number.
     Number,
+    /// What only its unit tells, which it always has.
+    Other(&'static str),
 }
 
 impl Dimension {
-    /// All of them.
+    /// All of them that are known by name.
     pub const ALL: [Dimension; 19] = [
         Dimension::Mass,
         Dimension::Stiffness,
@@ -92,6 +94,7 @@ impl Dimension {
             Dimension::Current => "A",
             Dimension::ForcePerCurrent => "N/A",
             Dimension::Number => "1",
+            Dimension::Other(unit) => unit,
         }
     }
 }

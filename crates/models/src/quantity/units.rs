@@ -5,7 +5,15 @@ use std::f64::consts::PI;
 use super::Dimension;
 
 /// The units of a dimension with their size in SI, the commonest first.
-fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
+fn units(dimension: Dimension) -> Vec<(&'static str, f64)> {
+    if let Dimension::Other(unit) = dimension {
+        return vec![(unit, 1.0)];
+    }
+    known_units(dimension).to_vec()
+}
+
+/// The units of a dimension that is known by name.
+fn known_units(dimension: Dimension) -> &'static [(&'static str, f64)] {
     match dimension {
         Dimension::Mass => &[("kg", 1.0), ("g", 1e-3), ("mg", 1e-6)],
         Dimension::Stiffness => {
@@ -41,6 +49,7 @@ fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
         Dimension::Current => &[("A", 1.0), ("mA", 1e-3)],
         Dimension::ForcePerCurrent => &[("N/A", 1.0)],
         Dimension::Number => &[("", 1.0), ("%", 1e-2)],
+        Dimension::Other(_) => &[],
     }
 }
 
@@ -66,12 +75,13 @@ fn name(dimension: Dimension) -> &'static str {
         Dimension::Current => "an electric current",
         Dimension::ForcePerCurrent => "a force per current",
         Dimension::Number => "a plain number",
+        Dimension::Other(_) => "a quantity",
     }
 }
 
 /// The unit of a dimension that `text` names, with its size in SI.
 pub fn unit(text: &str, dimension: Dimension) -> Option<(&'static str, f64)> {
-    units(dimension).iter().find(|(known, _)| plain(known) == plain(text)).copied()
+    units(dimension).into_iter().find(|(known, _)| plain(known) == plain(text))
 }
 
 /// What is expected where a quantity of `dimension` stands, with its units.
@@ -79,7 +89,7 @@ pub fn expectation(dimension: Dimension) -> String {
     if dimension == Dimension::Number {
         return "a plain number".to_owned();
     }
-    let units: Vec<&str> = units(dimension).iter().map(|&(unit, _)| unit).collect();
+    let units: Vec<&str> = units(dimension).into_iter().map(|(unit, _)| unit).collect();
     format!("{} in {}", name(dimension), units.join(", "))
 }
 
@@ -120,6 +130,12 @@ fn split(text: &str) -> (&str, &str) {
         .find(|&end| text[..end].trim_end().parse::<f64>().is_ok())
         .unwrap_or(0);
     (text[..longest].trim_end(), &text[longest..])
+}
+
+/// The dimension whose unit in SI this is; what only this unit tells where there is none.
+pub fn dimension_of(unit: &'static str) -> Dimension {
+    let known = Dimension::ALL.into_iter().find(|it| plain(it.unit()) == plain(unit));
+    known.unwrap_or(Dimension::Other(unit))
 }
 
 /// A unit without what does not matter in it.

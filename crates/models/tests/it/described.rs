@@ -1,5 +1,7 @@
 //! What the capsule says of itself holds for it, and a parameter of one model is none of another.
 
+use std::f64::consts::PI;
+
 use capsulemap_engine::flow::Event as _;
 use capsulemap_models::capsule::description::{CAPSULE, CAPSULE_OVER_FOLDS};
 use capsulemap_models::capsule::{
@@ -9,6 +11,7 @@ use capsulemap_models::capsule::{
 use capsulemap_models::description::{
     self, Description, MotionDescription, ParameterDescription, Presence, Section,
 };
+use capsulemap_models::motion::Case;
 use capsulemap_models::of::default_model;
 use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
 
@@ -38,6 +41,7 @@ static OTHER: Description = Description {
     outputs: &[],
     roles: CAPSULE.roles,
     rules: CAPSULE.rules,
+    made_of: None,
 };
 
 #[test]
@@ -206,4 +210,20 @@ fn events_are_called_as_the_capsule_calls_them() {
         assert_eq!(CAPSULE.event(kind.number()), name);
     }
     assert_eq!(CAPSULE.motion.events.len(), EventKind::ALL.len());
+}
+
+#[test]
+fn a_start_is_as_late_as_its_phase_whichever_parameter_tells_the_period() {
+    let mut parameters = Parameters::of(default_model());
+    let case = |parameters: &Parameters, start_phase: f64| Case {
+        parameters: parameters.clone(),
+        start: description::State::origin(default_model()),
+        start_phase,
+        section_phase: 0.5,
+    };
+    let omega = parameters[Parameter::Omega];
+    assert_eq!(case(&parameters, 2.5).start_time(), 2.0 / omega);
+    parameters[Parameter::Period] = 0.08;
+    assert!((case(&parameters, 0.5 + PI).start_time() - 0.04).abs() < 1e-17);
+    assert_eq!(case(&parameters, 0.5).start_time(), 0.0);
 }
