@@ -64,6 +64,6 @@ pub use result_file::{block_path, output_path};
 pub use robustness::{Robustness, Tolerances};
 pub use share::Task;
 pub use status::{BlockStatus, Pace, Status};
-pub use study_source::{read_study, read_study_or_results, study_of};
+pub use study_source::{is_system_alone, read_study, read_study_or_results, read_system, study_of};
 pub use trade_off::{Between, TradeOff};
 pub use verify::{Difference, Differs, Sample, Verified, verify};

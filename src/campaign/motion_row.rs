@@ -144,7 +144,7 @@ impl Rows {
             slopes: motion.slopes.clone(),
             robustness: None,
             margins: Vec::new(),
-            replay: replay(motion, protocol),
+            replay: replay(motion, protocol, &self.file),
         }
     }
 }
@@ -156,17 +156,20 @@ fn whole(column: Option<&Column>, case: usize) -> Option<u64> {
 }
 
 /// The command that computes a motion between the cases.
-fn replay(motion: &RefinedMotion, protocol: &Protocol) -> String {
+fn replay(motion: &RefinedMotion, protocol: &Protocol, file: &str) -> String {
     let RefinedMotion { parameters, section, phase, .. } = motion;
     let start = State::at_section(parameters.model(), section);
-    command(&Case::at_section(parameters.clone(), start, *phase), protocol)
+    command(&Case::at_section(parameters.clone(), start, *phase), protocol, file)
 }
 
-/// The command that computes a case from its start, with the tolerance and the budget of cycles of a protocol.
-pub fn command(case: &Case, protocol: &Protocol) -> String {
+/// The command that computes a case from its start, with the tolerance and the budget of cycles of a protocol; a system that is a text is
+/// taken from the `file` of a study or of results.
+pub fn command(case: &Case, protocol: &Protocol, file: &str) -> String {
     let Case { parameters, start, start_phase, section_phase } = case;
     let mut text = "capsulemap simulate".to_owned();
-    if parameters.model() != default_model() {
+    if parameters.model().made_of.is_some() {
+        text += &format!(" --system {}", quoted(file));
+    } else if parameters.model() != default_model() {
         text += &format!(" --model {}", parameters.model().name);
     }
     for (parameter, value) in parameters.stated() {

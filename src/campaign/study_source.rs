@@ -3,42 +3,104 @@
 use std::path::Path;
 
 use super::error::CampaignError;
+use crate::description::Description;
 use crate::quantity::printable::printable;
-use crate::store::catalogue::STUDY_TEXT;
+use crate::store::catalogue::{STUDY_TEXT, taken_twice};
 use crate::store::{self, Archive, Pipes};
-use crate::study::{Study, include};
+use crate::study::{Fault, Faults, Study, include, named_system};
 
 /// The first bytes of an HDF5 file.
 const HDF5: &[u8] = b"\x89HDF";
 
 /// The study in the file at `path`.
 ///
-/// A parameter file that it includes is looked for beside it; the text of the study then has its values.
+/// A parameter file that it includes is looked for beside it, and the file of its system; the text of the study then has the values of
+/// the one, and the other.
 ///
 /// Fails if a file cannot be read, is no plain file or is no text, and with all faults of the study at once. The study may be a
 /// pipe that the shell has opened, a parameter file may not.
 pub fn read_study(path: &Path) -> Result<Study, CampaignError> {
     let name = path.to_string_lossy();
     let own = text(path, Pipes::OfShell)?;
-    let Some(file) = include::included(&own) else { return Ok(Study::parse(&name, &own)?) };
-    let values = text(&store::folder(path).join(&file), Pipes::Refused)?;
-    let whole = include::include(&own, &file, &values)
+    let own = with_named_system(own, path)?;
+    let study = match include::included(&own) {
+        Some(file) => with_values(&name, &own, &file, path)?,
+        None => Study::parse(&name, &own)?,
+    };
+    check_names(&name, study.base.model())?;
+    Ok(study)
+}
+
+/// A study with the values of the parameter file that it includes.
+fn with_values(name: &str, own: &str, file: &str, path: &Path) -> Result<Study, CampaignError> {
+    let values = text(&store::folder(path).join(file), Pipes::Refused)?;
+    let whole = include::include(own, file, &values)
         .map_err(|fault| CampaignError::of_path(path, fault))?;
-    Ok(Study::parse(&name, &whole.text).map_err(|faults| whole.as_written(faults))?)
+    Ok(Study::parse(name, &whole.text).map_err(|faults| whole.as_written(faults))?)
+}
+
+/// Makes sure that a system has no name for something which results have for something else.
+fn check_names(name: &str, model: &'static Description) -> Result<(), CampaignError> {
+    let taken = model.made_of.map(|_| taken_twice(model)).into_iter().flatten();
+    let faults = taken.map(|taken| Fault {
+        line: None,
+        key: named_system::KEY.to_owned(),
+        message: format!(
+            "results would have two things called `{taken}`; call the state, parameter or output otherwise"
+        ),
+    });
+    let faults: Vec<Fault> = faults.collect();
+    match faults.is_empty() {
+        true => Ok(()),
+        false => Err(Faults { file: name.to_owned(), faults }.into()),
+    }
 }
 
 /// The study in the file at `path`, which may be a file of results, too.
 ///
 /// Fails as [`read_study`] does, or if the results cannot be read.
 pub fn read_study_or_results(path: &Path) -> Result<Study, CampaignError> {
+    match is_results(path) {
+        true => study_of(&store::open(path)?, path),
+        false => read_study(path),
+    }
+}
+
+/// The model of the system in the file at `path`: a text, a study that has one or names one beside it, or results of such a study.
+///
+/// Fails as [`read_study`] does, and where the file has no system.
+pub fn read_system(path: &Path) -> Result<&'static Description, CampaignError> {
+    let own = match is_results(path) {
+        true => store::open(path)?.frame().texts.get(STUDY_TEXT).cloned().unwrap_or_default(),
+        false => text(path, Pipes::Refused)?,
+    };
+    let name = path.to_string_lossy();
+    let model = named_system::model_of(&name, &with_named_system(own, path)?)?;
+    check_names(&name, model)?;
+    Ok(model)
+}
+
+/// Whether a file says a system and nothing else; results do not.
+///
+/// Fails if the file cannot be read or is no text.
+pub fn is_system_alone(path: &Path) -> Result<bool, CampaignError> {
+    Ok(named_system::is_alone(&text(path, Pipes::Refused)?))
+}
+
+/// A study with the system that it names beside it.
+fn with_named_system(own: String, path: &Path) -> Result<String, CampaignError> {
+    let Some(file) = named_system::named_file(&own) else { return Ok(own) };
+    let system = text(&store::folder(path).join(&file), Pipes::Refused)?;
+    Ok(named_system::with_system(&own, &file, &system)?)
+}
+
+/// Whether a file is one of results.
+fn is_results(path: &Path) -> bool {
     let begins = store::open_input(path, Pipes::Refused).and_then(|(mut file, _)| {
         let mut first = [0; HDF5.len()];
         std::io::Read::read_exact(&mut file, &mut first).map(|()| first == HDF5)
     });
-    match begins {
-        Ok(true) => study_of(&store::open(path)?, path),
-        _ => read_study(path),
-    }
+    matches!(begins, Ok(true))
 }
 
 /// The text of a study file.

@@ -5,6 +5,7 @@ mod arguments;
 mod attractor_list;
 mod block_progress;
 mod branch_summary;
+mod check;
 mod compare;
 mod compare_report;
 mod continuation;
@@ -21,6 +22,7 @@ mod identify;
 mod identify_report;
 mod inspect;
 mod join;
+mod new;
 mod optima_csv;
 mod optima_json;
 mod optima_notes;
@@ -84,6 +86,10 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Write a study to begin with, of the capsule or of an oscillator of your own.
+    New(new::New),
+    /// Say what is wrong in a study or a system, or what follows from it.
+    Check(check::Check),
     /// Compute one case in full: section, events, and what it settles to.
     Simulate(Box<simulate::Simulate>),
     /// Compute a study: its cases over all cores, one HDF5 file, and its figures.
@@ -134,6 +140,8 @@ pub fn main(commit: &'static str) -> ExitCode {
         Failure::request(format!("SOURCE_DATE_EPOCH = \"{text}\" in the environment: {expected}"))
     });
     let done = done.and_then(|_| match command {
+        Command::New(new) => new.run(),
+        Command::Check(check) => check.run(),
         Command::Simulate(simulate) => simulate.run(),
         Command::Sweep(sweep) => sweep.run(),
         Command::Join(join) => join.run(),

@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::phases::Phases;
 use super::simulation_text::summary;
 use super::terminal::{notify, print};
-use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
+use crate::campaign::{CampaignError, Replay, read_study_or_results, read_system, silent};
 use crate::capsule::description::{CAPSULE, CAPSULE_OVER_FOLDS};
 use crate::capsule::{
     self, CapsuleParameters as _, DriveKind, Reaction, Release, Resistance, Switching,
@@ -29,6 +29,7 @@ Examples:
   capsulemap simulate --set mu_s=0.4 --start r=-2.5e-3,y2=0.1 --cycles 50
   capsulemap simulate --friction-switching as-printed
   capsulemap simulate --study studies/overview.toml --case 1234
+  capsulemap simulate --system systems/belt.toml --start x=1
 
 A number without a unit is in SI. What is not given is as in the paper's Table 1 and Fig 5.";
 
@@ -47,6 +48,9 @@ pub struct Simulate {
     /// Another model than the capsule, of those that this program knows, as capsule-over-folds; its parameters are given by --set.
     #[arg(long, value_name = "NAME", conflicts_with = "study")]
     model: Option<String>,
+    /// The oscillator of a text, as systems/belt.toml, or of a study or of results that have one; its parameters are given by --set.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["study", "model"])]
+    system: Option<PathBuf>,
     /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     omega: Option<String>,
@@ -183,7 +187,10 @@ impl Simulate {
 
     fn request(&self) -> Result<Request, Failure> {
         let mut faults = Vec::new();
-        let model = self.chosen_model(&mut faults);
+        let model = match &self.system {
+            Some(file) => read_system(file)?,
+            None => self.chosen_model(&mut faults),
+        };
         let mut parameters = Parameters::of(model);
         if is_capsule(model) {
             parameters.switch_by(self.friction_switching);

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use ndarray::{ArrayD, IxDyn};
 
-use super::catalogue::{Entry, Flags};
+use super::catalogue::{Entry, Flags, SYSTEM_TEXT};
 use super::names::MODEL;
 use crate::description::Description;
 use crate::of::{default_model, model_called};
+use crate::study::named_system;
 
 /// The numbers of a variable.
 #[derive(Debug, Clone, PartialEq)]
@@ -140,8 +141,9 @@ pub struct Dataset {
 impl Dataset {
     /// The model whose results they are.
     pub fn model(&self) -> &'static Description {
-        let named = self.attributes.get(MODEL).and_then(|name| model_called(name));
-        named.unwrap_or_else(default_model)
+        let as_text = self.texts.get(SYSTEM_TEXT).and_then(|tables| named_system::known(tables));
+        let named = || self.attributes.get(MODEL).and_then(|name| model_called(name));
+        as_text.or_else(named).unwrap_or_else(default_model)
     }
 
     /// The coordinate called `name`.

@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use tempfile::NamedTempFile;
 
+use super::catalogue::SYSTEM_TEXT;
 use super::checksum::{self, Checksum};
 use super::decode::Archive;
 use super::faults::faults;
@@ -18,6 +19,7 @@ use super::plain::{NO_TEXT, place};
 use super::watched::Watched;
 use super::{Dataset, StoreError, difference, encode};
 use crate::of::model_called;
+use crate::study::named_system;
 
 /// How often a folder is tried that another run holds, and the time between two tries: ten minutes in all.
 const HOLD_TRIES: u32 = 3000;
@@ -118,7 +120,14 @@ pub fn open_changed(path: &Path) -> Result<(Archive, bool), StoreError> {
 /// A file of results of a model that is known.
 fn decoded(path: &Path, checked: Watched) -> Result<Archive, StoreError> {
     let archive = Archive::decode(path, checked)?;
-    match archive.frame().attributes.get(MODEL) {
+    let frame = archive.frame();
+    if let Some(tables) = frame.texts.get(SYSTEM_TEXT) {
+        return match named_system::model_of(SYSTEM_TEXT, tables) {
+            Ok(_) => Ok(archive),
+            Err(why) => Err(StoreError::Foreign { path: path.to_owned(), why: why.to_string() }),
+        };
+    }
+    match frame.attributes.get(MODEL) {
         Some(name) if model_called(name).is_none() => {
             let why = format!("its results are of the model {name}, which is not known here");
             Err(StoreError::Foreign { path: path.to_owned(), why })

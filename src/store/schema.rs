@@ -104,6 +104,9 @@ pub fn frame(study: &Study) -> Dataset {
         dataset.attributes.insert(INHERITED_ALONG.to_owned(), axis.to_owned());
     }
     dataset.texts.insert(STUDY_TEXT.to_owned(), study.text.clone());
+    if let Some(made_of) = study.base.model().made_of {
+        dataset.texts.insert(SYSTEM_TEXT.to_owned(), made_of.tables.to_owned());
+    }
     dataset
 }
 

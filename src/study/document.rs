@@ -108,6 +108,11 @@ impl<'a> Reader<'a> {
         (line < ends.len()).then(|| if line == 0 { 0 } else { ends[line - 1] })
     }
 
+    /// Notes a fault with the line that it has.
+    pub fn note(&self, fault: Fault) {
+        self.faults.borrow_mut().push(fault);
+    }
+
     /// The faults in order of lines.
     pub fn faults(self, file: &str) -> Faults {
         let mut faults = self.faults.into_inner();
@@ -175,6 +180,11 @@ impl<'r, 'a> Table<'r, 'a> {
     pub fn missing(&self, key: &str, expected: &str) {
         let message = format!("missing; expected {expected}");
         self.reader.fault(self.place, self.path_of(key), message);
+    }
+
+    /// Notes a fault with the line that it has.
+    pub fn note(&self, fault: Fault) {
+        self.reader.note(fault);
     }
 
     /// Reports what cannot be together with other values, at `key`.
@@ -275,6 +285,11 @@ impl<'r, 'a> Entry<'r, 'a> {
             Some(number) => Some(number.to_string()),
             None => self.text().map(str::to_owned),
         }
+    }
+
+    /// Whether the value is a table.
+    pub fn is_table(&self) -> bool {
+        self.value.get_ref().is_table()
     }
 
     /// Whether the value is a list.

@@ -56,7 +56,7 @@ pub fn include(study: &str, file: &str, parameters: &str) -> Result<Included, St
     };
     let (document, _) = DeTable::parse_recoverable(study);
     let document = document.get_ref();
-    let model = model_in(document);
+    let model = model_in(document, study);
     let own = set_by(document);
     let mut lines = Vec::new();
     for (key, value) in values.iter() {

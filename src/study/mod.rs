@@ -18,6 +18,7 @@ pub mod grid;
 pub mod include;
 pub(crate) mod layout;
 mod named_model;
+pub mod named_system;
 mod parameter_table;
 mod refine_file;
 pub mod refinement;

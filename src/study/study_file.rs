@@ -32,7 +32,7 @@ impl Study {
     /// Reads a study from its text; all faults are reported at once. `name` is the file's, for messages.
     pub fn parse(name: &str, text: &str) -> Result<Study, Faults> {
         let (document, errors) = DeTable::parse_recoverable(text);
-        let reader = Reader::new(text, model_in(document.get_ref()));
+        let reader = Reader::new(text, model_in(document.get_ref(), text));
         if !errors.is_empty() {
             // What follows a broken line cannot be judged.
             errors.iter().for_each(|error| reader.syntax(error));
@@ -40,7 +40,7 @@ impl Study {
         }
         let top = Table::new(&reader, document.get_ref());
         let title = read_title(&top);
-        if !check_model(&top) {
+        if !check_model(&top, text) {
             // What a model does not know cannot be judged where it is not known which.
             return Err(reader.faults(name));
         }

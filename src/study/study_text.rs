@@ -23,8 +23,9 @@ impl Study {
         if !self.title.is_empty() {
             document.put("title", text(&self.title));
         }
-        if self.base.model() != default_model() {
-            document.put("model", text(self.base.model().name));
+        let model = self.base.model();
+        if model != default_model() && model.made_of.is_none() {
+            document.put("model", text(model.name));
         }
         if !self.outputs.iter().copied().eq(self.base.model().outputs()) {
             let names = self.outputs.iter().map(|output| text(output.name()));
@@ -46,6 +47,9 @@ impl Study {
         self.drawings
             .iter()
             .for_each(|drawing| write_drawing(&mut document, drawing, self.base.model()));
+        if let Some(made_of) = model.made_of {
+            document.0 = format!("{}\n{}", document.0, made_of.tables);
+        }
         document.0
     }
 

@@ -93,6 +93,7 @@ mod slurm;
 mod smoothed_records;
 mod store;
 mod study;
+mod texts;
 mod tolerances;
 mod trade_offs;
 mod tradeoff;

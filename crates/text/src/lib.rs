@@ -27,4 +27,4 @@
 
 pub mod text;
 
-pub use text::{Fault, Text, mode, program, read, system};
+pub use text::{Fault, Text, derived, described, mode, model, program, read, read_in, system};

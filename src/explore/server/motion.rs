@@ -80,7 +80,8 @@ pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
     let near = explored.near(&asked.coordinates(explored.model())?, asked.sweep()?)?;
     let protocol = explored.protocol();
     let Near { case, index, is_exact, .. } = &near;
-    let command = format!("{} --cycles {cycles}", command(case, &protocol));
+    let command =
+        format!("{} --cycles {cycles}", command(case, &protocol, &explored.file.to_string_lossy()));
     let most = SimulationSize { cycles, events: MOST_EVENTS };
     let simulation = model_of(&case.parameters).simulate(case, most, protocol.tolerance);
     let orbit = settle_case(case, &protocol);

@@ -8,6 +8,8 @@ use crate::quantity::shown::{shown, words};
 pub const CASE: &str = "case";
 /// The text of a file that holds the text of the study.
 pub const STUDY_TEXT: &str = "study";
+/// The text of a file that holds the tables of the system of the study, where that is a text.
+pub const SYSTEM_TEXT: &str = "system";
 /// The attribute of a file that names the axis along which attractors are numbered.
 pub const ATTRACTOR_AXIS: &str = "attractor_axis";
 

@@ -138,19 +138,30 @@ pub fn all(model: &'static Description) -> &'static [Entry] {
     if let Some((_, all)) = known.iter().find(|(other, _)| *other == model) {
         return all;
     }
+    let mut all = with_repeated(model);
+    let mut names = BTreeSet::new();
+    all.retain(|entry| names.insert(entry.name));
+    let all: &'static [Entry] = all.leak();
+    known.push((model, all));
+    all
+}
+
+/// Every entry, those too whose name an earlier one has.
+fn with_repeated(model: &'static Description) -> Vec<Entry> {
     let study = Coordinate::all(model).map(Entry::of_coordinate);
     let outputs = model.outputs().map(Entry::of_output);
     let fixed = [cases::FIXED, tables::FIXED, branches::FIXED].concat();
     let described =
         [section, neutral, impacts, histories, derived, end, edges].map(|of| of(model)).concat();
     let columns = Place::ALL.into_iter().flat_map(|place| place.columns(model));
-    let mut all: Vec<Entry> =
-        study.chain(outputs).chain(described).chain(fixed).chain(columns).collect();
-    let mut names = BTreeSet::new();
-    all.retain(|entry| names.insert(entry.name));
-    let all: &'static [Entry] = all.leak();
-    known.push((model, all));
-    all
+    study.chain(outputs).chain(described).chain(fixed).chain(columns).collect()
+}
+
+/// The names that a model has for something which results have for something else, too.
+pub fn taken_twice(model: &'static Description) -> BTreeSet<&'static str> {
+    let mut names = BTreeSet::from([cases::CASE, cases::STUDY_TEXT, cases::SYSTEM_TEXT]);
+    let repeated = with_repeated(model).into_iter().filter(|entry| !names.insert(entry.name));
+    repeated.map(|entry| entry.name).collect()
 }
 
 /// Whether a dimension of files is called so that is no axis of a study, whatever its model.
@@ -177,6 +188,7 @@ mod tests {
             all(default_model()).iter().all(|entry| named(entry.name, default_model()).is_some())
         );
         assert!(named("nothing", default_model()).is_none());
+        assert_eq!(taken_twice(default_model()), BTreeSet::new());
     }
 
     #[test]

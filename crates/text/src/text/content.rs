@@ -35,6 +35,51 @@ pub struct Text {
     pub section: Section,
     /// The state that nothing depends on, by its place.
     pub drift: Option<usize>,
+    /// What outputs are of.
+    pub measured: Vec<Measured>,
+    /// Its outputs.
+    pub outputs: Vec<TextOutput>,
+}
+
+/// What is measured of a motion that has settled.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Measured {
+    /// The integral of a value over a cycle.
+    Integral(Id),
+    /// Its mean over time.
+    Mean(Id),
+    /// Its largest value.
+    Largest(Id),
+    /// Its least value.
+    Least(Id),
+    /// How often the event of this name happens in a cycle.
+    Count(String),
+}
+
+impl Measured {
+    /// The value that it is of, if it is of one.
+    pub fn of(&self) -> Option<Id> {
+        match self {
+            Measured::Integral(of)
+            | Measured::Mean(of)
+            | Measured::Largest(of)
+            | Measured::Least(of) => Some(*of),
+            Measured::Count(_) => None,
+        }
+    }
+}
+
+/// An output of a text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TextOutput {
+    /// Its name.
+    pub name: String,
+    /// Its unit, as the text has it; none where it has none.
+    pub unit: Option<String>,
+    /// What it is, in words.
+    pub meaning: Option<String>,
+    /// Its value, of parameters and what is measured.
+    pub value: Id,
 }
 
 /// A state.
@@ -44,6 +89,8 @@ pub struct State {
     pub name: String,
     /// Its unit, as the text has it.
     pub unit: String,
+    /// What it is, in words.
+    pub meaning: Option<String>,
 }
 
 /// A parameter.
@@ -211,8 +258,13 @@ impl Text {
         roots
     }
 
+    /// The values that its motion needs, and those of which something is measured.
+    pub fn roots_and_measured(&self) -> Vec<Id> {
+        self.roots().into_iter().chain(self.measured.iter().filter_map(Measured::of)).collect()
+    }
+
     /// A constant where the parameters have their defaults; no number of what is no constant.
     pub fn value_at_defaults(&self, id: Id) -> f64 {
-        self.graph.constants(&|place| self.parameters[place].default)[id.index()]
+        self.graph.constants(&|place| self.parameters[place].default, &[])[id.index()]
     }
 }

@@ -20,7 +20,9 @@ const TRIALS: [fn(usize, f64) -> f64; 3] = [
 /// Notes where something depends on what is said to drift, or on time in another way than the section allows.
 pub fn check_dependence(source: &Source<'_>, text: &Text, table: &DeTable<'_>) {
     let place = |key: &str| table.get(key).map_or_else(|| place_of(table), |it| it.span().start);
-    let depends = |node: Node| text.roots().into_iter().any(|it| text.graph.depends_on(it, node));
+    let depends = |node: Node| {
+        text.roots_and_measured().into_iter().any(|it| text.graph.depends_on(it, node))
+    };
     if let Some(drift) = text.drift.filter(|it| depends(Node::State(*it))) {
         let name = &text.states[drift].name;
         source.fault(place("drift"), format!("{name} cannot drift: the equations depend on it"));
@@ -80,7 +82,7 @@ fn unlike_each_period(text: &Text, every: Id) -> Vec<String> {
     let mut graph = text.graph.clone();
     let mut reasons = Vec::new();
     let mut seen = vec![false; graph.len()];
-    let mut waiting = text.roots();
+    let mut waiting = text.roots_and_measured();
     while let Some(id) = waiting.pop() {
         if std::mem::replace(&mut seen[id.index()], true) {
             continue;
@@ -116,7 +118,7 @@ fn unlike_each_period(text: &Text, every: Id) -> Vec<String> {
 
 /// Whether an angle of this rate changes by whole turns in a period, at some values of the parameters.
 fn repeats(text: &Text, graph: &Graph, of: [Id; 2], trial: fn(usize, f64) -> f64) -> bool {
-    let values = graph.constants(&|place| trial(place, text.parameters[place].default));
+    let values = graph.constants(&|place| trial(place, text.parameters[place].default), &[]);
     let [rate, every] = of.map(|it| values[it.index()]);
     let turns = rate * every / (2.0 * std::f64::consts::PI);
     // Where a trial makes no number it tells nothing.

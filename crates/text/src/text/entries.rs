@@ -25,6 +25,7 @@ pub(crate) struct Parsed<'t, 'a> {
     pub(crate) switches: Vec<Entry<'t, 'a>>,
     pub(crate) frictions: Vec<Entry<'t, 'a>>,
     pub(crate) pulses: Vec<Entry<'t, 'a>>,
+    pub(crate) outputs: Vec<Entry<'t, 'a>>,
 }
 
 impl<'t, 'a> Parsed<'t, 'a> {
@@ -37,6 +38,7 @@ impl<'t, 'a> Parsed<'t, 'a> {
             switches: of("switch"),
             frictions: of("friction"),
             pulses: of("pulse"),
+            outputs: of("outputs"),
         };
         if parsed.states.is_empty() {
             source.fault(place_of(table), "[system] needs states, as states = { x = \"m\" }");
@@ -68,13 +70,14 @@ impl<'t, 'a> Parsed<'t, 'a> {
 
     pub(crate) fn give_names(&self, source: &Source<'a>, names: &mut Names) {
         type Kind<'k, 't, 'a> = (&'k [Entry<'t, 'a>], fn(usize) -> Meaning);
-        let kinds: [Kind<'_, '_, '_>; 6] = [
+        let kinds: [Kind<'_, '_, '_>; 7] = [
             (&self.states, Meaning::State),
             (&self.parameters, Meaning::Parameter),
             (&self.definitions, Meaning::Definition),
             (&self.switches, Meaning::Switch),
             (&self.frictions, Meaning::Friction),
             (&self.pulses, Meaning::Pulse),
+            (&self.outputs, Meaning::Output),
         ];
         for (entries, meaning) in kinds {
             for (place, it) in entries.iter().enumerate() {

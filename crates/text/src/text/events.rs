@@ -8,6 +8,7 @@ use crate::text::instructions::Guard;
 use crate::text::interpreter::{at, slides};
 use crate::text::mode::{EventKind, TextEvent, TextMode};
 use crate::text::oscillator::{Oscillator, Values};
+use crate::text::program::touches;
 
 /// Two sizes of a friction that are no farther apart, relative to them, are one: then sliding begins without a jump of the force.
 const SAME: f64 = 1e-9;
@@ -116,10 +117,7 @@ in_lanes! {
 
         /// Whether a surface is one that may be touched.
         fn touches(&self, bound: Option<(usize, usize)>) -> bool {
-            let touching = self.program.touching;
-            touching.zip(bound).is_some_and(|((state, surfaces), (bound, value))| {
-                state == bound && surfaces.contains(&value)
-            })
+            touches(self.program.touching, bound)
         }
 
         /// Moves the state as the event at a place does.

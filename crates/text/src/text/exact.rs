@@ -33,6 +33,7 @@ impl Point<'_> {
             Node::Switch(place) => self.mode.switches[place],
             Node::Pulse(place) => self.pulses[place],
             Node::Sign(place) => self.mode.signs[place],
+            Node::Measured(_) => f64::NAN,
             Node::Friction(place) => {
                 let (sliding, at_rest) = self.frictions[place];
                 match self.mode.signs[place] {

@@ -34,6 +34,8 @@ pub enum Node {
     Sign(usize),
     /// A friction by its place.
     Friction(usize),
+    /// What is measured of a motion that has settled, by its place.
+    Measured(usize),
     /// A sum.
     Add(Id, Id),
     /// A difference.
@@ -235,13 +237,14 @@ impl Graph {
     }
 
     /// The constants where the parameters have these values by their places, in the order of the values; no numbers of others.
-    pub fn constants(&self, parameter: &dyn Fn(usize) -> f64) -> Vec<f64> {
+    pub fn constants(&self, parameter: &dyn Fn(usize) -> f64, measured: &[f64]) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
             let of = |id: Id| values[id.index()];
             values.push(match *node {
                 Node::Number(bits) => f64::from_bits(bits),
                 Node::Parameter(place) => parameter(place),
+                Node::Measured(place) => measured.get(place).copied().unwrap_or(f64::NAN),
                 Node::Add(a, b) => of(a) + of(b),
                 Node::Sub(a, b) => of(a) - of(b),
                 Node::Mul(a, b) => of(a) * of(b),
@@ -295,7 +298,7 @@ impl Graph {
 
     fn level_of(&self, node: Node) -> Level {
         match node {
-            Node::Number(_) | Node::Parameter(_) => Level::Case,
+            Node::Number(_) | Node::Parameter(_) | Node::Measured(_) => Level::Case,
             Node::Switch(_) | Node::Pulse(_) | Node::Sign(_) => Level::Mode,
             Node::State(_) | Node::Time | Node::Friction(_) => Level::Motion,
             Node::Add(a, b)

@@ -157,6 +157,23 @@ impl SeriesStep {
         }
     }
 
+    /// The registers that it takes, without others.
+    pub fn series_operands(self) -> Vec<Register> {
+        let ([a, b], _) = self.operands();
+        match self {
+            SeriesStep::Constant(_) | SeriesStep::Time | SeriesStep::Rotation(..) => Vec::new(),
+            SeriesStep::Add(..)
+            | SeriesStep::Sub(..)
+            | SeriesStep::Mul(..)
+            | SeriesStep::Div(..)
+            | SeriesStep::Friction(..)
+            | SeriesStep::AddScaled(..)
+            | SeriesStep::SubScaled(..)
+            | SeriesStep::TwoScaled(..) => vec![a, b],
+            _ => vec![a],
+        }
+    }
+
     /// How many registers it writes.
     #[inline(always)]
     pub fn registers(self) -> usize {

@@ -93,6 +93,7 @@ impl Making {
             Node::Of(function, a) => ScalarStep::Of(function, self.scalar(a)),
             Node::Max(a, b) => ScalarStep::Max(self.scalar(a), self.scalar(b)),
             Node::Min(a, b) => ScalarStep::Min(self.scalar(a), self.scalar(b)),
+            Node::Measured(_) => unreachable!("the motion needs nothing that is measured of it"),
             Node::State(_) | Node::Time | Node::Friction(_) => unreachable!("these are series"),
         };
         let place = self.scalars.len();

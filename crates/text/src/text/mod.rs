@@ -2,9 +2,13 @@
 
 pub mod content;
 mod dependence;
+pub mod derived;
+pub mod described;
 mod entries;
+mod event_names;
 mod events;
 mod exact;
+mod face;
 pub mod expression;
 pub mod fault;
 pub mod function;
@@ -16,16 +20,20 @@ mod line;
 pub mod linear;
 mod lowering;
 pub mod mode;
+pub mod model;
 mod names;
 pub mod oscillator;
 mod parts;
 pub mod program;
 mod read;
+pub mod sums;
 mod switched;
+mod symbol;
+mod tables;
 pub mod system;
 mod values;
 mod written;
 
 pub use content::Text;
 pub use fault::Fault;
-pub use read::read;
+pub use read::{read, read_in};

@@ -118,6 +118,11 @@ impl TextEvent {
         TextEvent(kind as u8 * MAX_GUARDS as u8 + place as u8)
     }
 
+    /// All that a text can have, in the order of their numbers.
+    pub fn all() -> impl Iterator<Item = TextEvent> {
+        EVENTS.into_iter()
+    }
+
     /// Its kind.
     pub fn kind(self) -> EventKind {
         EventKind::ALL[usize::from(self.0) / MAX_GUARDS]

@@ -10,6 +10,8 @@ use crate::text::written::{Source, Written, hint};
 const OWN: [&str; 2] = ["t", "pi"];
 /// Functions of two constants.
 pub const OF_TWO: [&str; 2] = ["max", "min"];
+/// What outputs may measure of a motion, beside the largest and the least value.
+pub const MEASURES: [&str; 3] = ["integral", "mean", "count"];
 
 /// What a name stands for, by its place among those of its kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,6 +32,8 @@ pub enum Meaning {
     Friction(usize),
     /// A pulse.
     Pulse(usize),
+    /// An output.
+    Output(usize),
 }
 
 /// All names of a text.
@@ -50,7 +54,12 @@ impl Names {
 
     /// Gives a name a meaning, or notes why it cannot have it.
     pub fn give(&mut self, source: &Source<'_>, name: &str, at: usize, meaning: Meaning) {
-        let is_function = Function::NAMES.iter().map(|it| it.0).chain(OF_TWO).any(|it| it == name);
+        let is_function = Function::NAMES
+            .iter()
+            .map(|it| it.0)
+            .chain(OF_TWO)
+            .chain(MEASURES)
+            .any(|it| it == name);
         if !is_name(name) {
             let message = format!("{name:?} is no name: letters, digits and _, no digit first");
             source.fault(at, message);
@@ -82,5 +91,6 @@ fn kind(meaning: Meaning) -> &'static str {
         Meaning::Switch(_) => "a switch",
         Meaning::Friction(_) => "a friction",
         Meaning::Pulse(_) => "a pulse",
+        Meaning::Output(_) => "an output",
     }
 }

@@ -3,10 +3,10 @@
 use toml::de::DeTable;
 
 use crate::text::content::{
-    Bound, Event, MOST_OF_A_KIND, Moved, Parameter, Pulse, Section, State, Switch,
+    Bound, Event, MOST_OF_A_KIND, Moved, Parameter, Pulse, Section, State, Switch, TextOutput,
 };
 use crate::text::entries::{Entry, Parsed, Value, entries, needed};
-use crate::text::graph::{Graph, Id};
+use crate::text::graph::{Graph, Id, Level};
 use crate::text::linear::linear;
 use crate::text::values::Values;
 use crate::text::written::{Source, hint, place_of};
@@ -220,9 +220,61 @@ pub(crate) fn drift<'a>(
     parsed.state(source, &name.characters, name.at).map(Some)
 }
 
+pub(crate) fn outputs<'a>(
+    values: &mut Values<'a, '_>,
+    parsed: &Parsed<'_, 'a>,
+) -> Option<Vec<TextOutput>> {
+    values.is_output = true;
+    let mut outputs = Vec::new();
+    for it in &parsed.outputs {
+        let output = output(values, it);
+        values.outputs.push(output.as_ref().map(|it| it.value));
+        outputs.push(output);
+    }
+    values.is_output = false;
+    outputs.into_iter().collect()
+}
+
+fn output<'a>(values: &mut Values<'a, '_>, it: &Entry<'_, 'a>) -> Option<TextOutput> {
+    let source = values.source;
+    let (written, [unit, meaning]) = match it.value.get_ref().as_table() {
+        None => (source.expression(it.value, &it.name), [None, None]),
+        Some(table) => {
+            let place = format!("[system.outputs.{}]", it.name);
+            source.only(table, &place, &["value", "unit", "meaning"]);
+            (needed(source, table, it, "value"), unit_and_meaning(source, table))
+        }
+    };
+    let written = written?;
+    let value = values.value(&written)?;
+    if values.graph.level(value) != Level::Case {
+        let message = format!(
+            "{} changes along the motion: say what of it, as integral(...), mean(...), max(...) or min(...)",
+            it.name
+        );
+        source.fault(written.at, message);
+        return None;
+    }
+    Some(TextOutput { name: it.name.clone(), unit, meaning, value })
+}
+
+/// The unit and the meaning that a table gives.
+fn unit_and_meaning<'a>(source: &Source<'a>, table: &DeTable<'a>) -> [Option<String>; 2] {
+    ["unit", "meaning"].map(|key| {
+        let string = table.get(key).and_then(|it| source.string(it, key));
+        string.map(|it| it.characters)
+    })
+}
+
 pub(crate) fn state<'a>(source: &Source<'a>, it: &Entry<'_, 'a>) -> Option<State> {
-    let unit = source.string(it.value, "the unit of a state")?;
-    Some(State { name: it.name.clone(), unit: unit.characters })
+    let name = it.name.clone();
+    let Some(table) = it.value.get_ref().as_table() else {
+        let unit = source.string(it.value, "the unit of a state")?.characters;
+        return Some(State { name, unit, meaning: None });
+    };
+    source.only(table, &format!("the state {name}"), &["unit", "meaning"]);
+    let [unit, meaning] = unit_and_meaning(source, table);
+    Some(State { name, unit: unit.unwrap_or_else(|| "1".into()), meaning })
 }
 
 pub(crate) fn parameter<'a>(source: &Source<'a>, it: &Entry<'_, 'a>) -> Option<Parameter> {
@@ -239,7 +291,6 @@ pub(crate) fn parameter<'a>(source: &Source<'a>, it: &Entry<'_, 'a>) -> Option<P
             None
         }
     };
-    let string = |key: &str| table.get(key).and_then(|it| source.string(it, key));
-    let [unit, meaning] = ["unit", "meaning"].map(|key| string(key).map(|it| it.characters));
+    let [unit, meaning] = unit_and_meaning(source, table);
     Some(Parameter { name: it.name.clone(), default: default?, unit, meaning })
 }

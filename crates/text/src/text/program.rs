@@ -1,6 +1,9 @@
 //! The instructions by which the values of a text are computed: constants once a case, others once a mode, series term by term.
 
 use std::f64::consts::PI;
+use std::sync::OnceLock;
+
+use capsulemap_models::description::Description;
 
 use crate::text::content::{Section, Text};
 use crate::text::instructions::{
@@ -8,6 +11,16 @@ use crate::text::instructions::{
     Unseen,
 };
 use crate::text::lowering::Making;
+use crate::text::mode::{EventKind, TextEvent};
+
+/// A state with the surfaces that its local extrema may touch.
+pub type Touching = (usize, [Scalar; 2]);
+
+/// Whether a bound is such a surface.
+pub fn touches(touching: Option<Touching>, bound: Option<(usize, Scalar)>) -> bool {
+    let both = touching.zip(bound);
+    both.is_some_and(|((state, surfaces), (of, value))| state == of && surfaces.contains(&value))
+}
 
 /// What of a text the motion needs, with instructions for all of it.
 #[derive(Debug, Clone)]
@@ -52,7 +65,17 @@ pub struct Program {
     /// Of each event whether it may take the state across the surface of a switch, or of another event.
     pub crosses: Vec<bool>,
     /// The state whose local extrema may touch surfaces, with these: at first one, or two.
-    pub touching: Option<(usize, [Scalar; 2])>,
+    pub touching: Option<Touching>,
+    /// The description of its model, once it is one.
+    pub description: OnceLock<&'static Description>,
+    /// The events that may happen, in the order of their numbers.
+    pub events: Vec<TextEvent>,
+    /// Of all that is measured of values, these.
+    pub observed: Vec<Option<Place>>,
+    /// What computes those of them that the motion does not need, from what it does.
+    pub of_observed: Vec<Instruction>,
+    /// The registers of the motion that these are of.
+    pub observed_from: Vec<Register>,
 }
 
 impl Program {
@@ -86,12 +109,20 @@ impl Program {
         let guards = guards(&text);
         let touching = touching(&text, &bounds);
         let layout = layout(&text, room);
+        let events = events(&text, &bounds, touching);
         let crosses = text.events.iter().map(|it| {
             let moved = it.moved.switches.iter().chain(&it.moved.events);
             moved.copied().any(|it| it)
         });
         let crosses = crosses.collect();
-        let Making { scalars, of_mode, series, registers, growing, .. } = making;
+        let (of_motion, growing) = (making.series.len(), making.growing.clone());
+        let observed: Vec<Option<Place>> = {
+            let all = text.measured.iter();
+            all.map(|it| it.of().map(|id| making.place(id))).collect()
+        };
+        let Making { scalars, of_mode, mut series, registers, .. } = making;
+        let of_observed = series.split_off(of_motion);
+        let observed_from = operands(&of_observed, &observed);
         let argument = |it: &Instruction| match it.step {
             SeriesStep::Exp(of) => Some((of, Unseen::Below)),
             SeriesStep::Tanh(of) => Some((of, Unseen::Beyond)),
@@ -100,7 +131,9 @@ impl Program {
         let arguments = series.iter().filter_map(argument).collect();
         let asked_for = sides.iter().chain(&lasts).copied();
         let of_guards: Vec<Place> = asked_for.chain(of_frictions(&frictions)).collect();
-        let series = kept(series, &of_guards);
+        let asked_for = observed_from.iter().map(|it| Place::Series(*it));
+        let asked_for: Vec<Place> = of_guards.into_iter().chain(asked_for).collect();
+        let series = kept(series, &asked_for);
         let paced = (0..text.states.len()).chain(growing).collect();
         Program {
             text,
@@ -123,8 +156,54 @@ impl Program {
             layout,
             crosses,
             touching,
+            description: OnceLock::new(),
+            events,
+            observed,
+            of_observed,
+            observed_from,
         }
     }
+}
+
+/// The registers of the motion that what is observed is of, or is.
+fn operands(of_observed: &[Instruction], observed: &[Option<Place>]) -> Vec<Register> {
+    let own = |register: &Register| {
+        of_observed
+            .iter()
+            .any(|it| (it.register..it.register + it.step.registers()).contains(register))
+    };
+    let taken = of_observed.iter().flat_map(|it| it.step.series_operands());
+    let are = observed.iter().filter_map(|it| match it {
+        Some(Place::Series(register)) => Some(*register),
+        _ => None,
+    });
+    let mut from: Vec<Register> = taken.chain(are).filter(|it| !own(it)).collect();
+    from.sort_unstable();
+    from.dedup();
+    from
+}
+
+/// The events that may happen, in the order of their numbers.
+fn events(text: &Text, bounds: &Bounds, touching: Option<Touching>) -> Vec<TextEvent> {
+    let of_bound = |bound: &Option<(usize, Scalar)>, kinds: [EventKind; 2]| {
+        if touches(touching, *bound) { kinds[0] } else { kinds[1] }
+    };
+    let mut events = Vec::new();
+    for (place, bound) in bounds.events.iter().enumerate() {
+        events.push(TextEvent::of(of_bound(bound, [EventKind::Impact, EventKind::Event]), place));
+    }
+    for (place, bound) in bounds.switches.iter().enumerate() {
+        let enters = of_bound(bound, [EventKind::EntersContact, EventKind::Enters]);
+        events.extend([enters, EventKind::Leaves].map(|it| TextEvent::of(it, place)));
+    }
+    let of_frictions =
+        [EventKind::SlipForward, EventKind::SlipBackward, EventKind::Stick, EventKind::Reversal];
+    for place in 0..text.frictions.len() {
+        events.extend(of_frictions.map(|it| TextEvent::of(it, place)));
+    }
+    events.extend((!text.pulses.is_empty()).then_some(TextEvent::of(EventKind::Edge, 0)));
+    events.sort();
+    events
 }
 
 /// What guards ask of frictions.
@@ -156,15 +235,26 @@ impl Program {
     /// frequency; others count as they are.
     pub fn scales<const N: usize>(&self, period: f64) -> [f64; N] {
         let mut scales = [1.0; N];
-        let states = &self.text.states;
-        for (state, at) in states.iter().zip(&self.layout) {
-            let rate = format!("{}/s", state.unit);
-            let has_rate = states.iter().any(|it| it.unit == rate);
-            if has_rate && matches!(self.text.section, Section::Every(_)) {
+        for (state, at) in self.layout.iter().enumerate() {
+            if self.counts_as_velocity(state) {
                 scales[*at] = 2.0 * PI / period;
             }
         }
         scales
+    }
+
+    /// The values of the outputs of the text, by the values of parameters and what was measured.
+    pub fn outputs(&self, parameters: &[f64], measured: &[f64]) -> Vec<f64> {
+        let values = self.text.graph.constants(&|place| parameters[place], measured);
+        self.text.outputs.iter().map(|it| values[it.value.index()]).collect()
+    }
+
+    /// Whether a state is compared with others by the angular frequency.
+    pub fn counts_as_velocity(&self, state: usize) -> bool {
+        let states = &self.text.states;
+        let rate = format!("{}/s", states[state].unit);
+        let has_rate = states.iter().any(|it| it.unit == rate);
+        has_rate && matches!(self.text.section, Section::Every(_))
     }
 }
 
@@ -191,7 +281,7 @@ fn guards(text: &Text) -> Vec<Guard> {
 }
 
 /// The state that may touch surfaces: that which the first event is at, or else the first switch.
-fn touching(text: &Text, bounds: &Bounds) -> Option<(usize, [Scalar; 2])> {
+fn touching(text: &Text, bounds: &Bounds) -> Option<Touching> {
     let mut all = bounds.events.iter().flatten();
     let mut switches = bounds.switches.iter().flatten();
     let (state, first) = *all.next().or_else(|| switches.next())?;

@@ -5,13 +5,14 @@ use toml::de::DeTable;
 use crate::text::content::{Event, Friction, Parameter, Pulse, Section, State, Switch, Text};
 use crate::text::dependence::check_dependence;
 use crate::text::entries::Parsed;
+use crate::text::event_names::event_symbols;
 use crate::text::fault::Fault;
 use crate::text::graph::{Graph, Id, Node};
 use crate::text::linear::{Linear, TakenApart, linear};
 use crate::text::names::Names;
 use crate::text::parts;
 use crate::text::values::Values;
-use crate::text::written::{Source, place_of};
+use crate::text::written::{Source, hint, place_of};
 
 /// Guards that a system has at most, its section included.
 const MOST_GUARDS: usize = capsulemap_engine::flow::MAX_GUARDS;
@@ -23,8 +24,21 @@ const MOST_GUARDS: usize = capsulemap_engine::flow::MAX_GUARDS;
 pub fn read(text: &str) -> Result<Text, Vec<Fault>> {
     let source = Source::new(text);
     let tables = source.tables();
-    let table = tables.get_ref();
-    source.only(table, "the text", &["system"]);
+    source.only(tables.get_ref(), "the text", &["system"]);
+    system_in(source, tables.get_ref())
+}
+
+/// Reads the table `system` of a text that has other tables, too, as a study.
+///
+/// # Errors
+/// All that is wrong in it, each with its line and column.
+pub fn read_in(text: &str) -> Result<Text, Vec<Fault>> {
+    let source = Source::new(text);
+    let tables = source.tables();
+    system_in(source, tables.get_ref())
+}
+
+fn system_in<'a>(source: Source<'a>, table: &DeTable<'a>) -> Result<Text, Vec<Fault>> {
     let found = match table.get("system") {
         Some(value) => source.table(value, "system").and_then(|it| of_table(&source, it)),
         None => {
@@ -39,7 +53,7 @@ pub fn read(text: &str) -> Result<Text, Vec<Fault>> {
 }
 
 fn of_table<'a>(source: &Source<'a>, table: &DeTable<'a>) -> Option<Text> {
-    const KEYS: [&str; 11] = [
+    const KEYS: [&str; 12] = [
         "name",
         "states",
         "parameters",
@@ -51,6 +65,7 @@ fn of_table<'a>(source: &Source<'a>, table: &DeTable<'a>) -> Option<Text> {
         "events",
         "section",
         "drift",
+        "outputs",
     ];
     source.only(table, "[system]", &KEYS);
     let name = table.get("name").and_then(|it| source.string(it, "name"));
@@ -62,9 +77,14 @@ fn of_table<'a>(source: &Source<'a>, table: &DeTable<'a>) -> Option<Text> {
     parsed.give_names(source, &mut names);
     let mut values = Values::new(source, names, parsed.frictions.len());
     let found = Found::of(&mut values, &parsed, table);
+    let outputs = parts::outputs(&mut values, &parsed);
     values.all_definitions();
+    let measured = std::mem::take(&mut values.measured);
+    let counts = std::mem::take(&mut values.counts);
     let graph = std::mem::take(&mut values.graph);
     let text = found?.text(source, &parsed, graph, name?.characters)?;
+    let text = Text { measured, outputs: outputs?, ..text };
+    check_counts(source, &text, &counts);
     check_guards(source, &text, place_of(table));
     check_dependence(source, &text, table);
     Some(text.with_moved())
@@ -166,6 +186,8 @@ impl Found {
             events,
             section,
             drift,
+            measured: Vec::new(),
+            outputs: Vec::new(),
         })
     }
 }
@@ -200,6 +222,14 @@ fn at_rest(
     }
     let force = graph.div(apart.without, factor);
     Ok((linear, graph.neg(force)))
+}
+
+/// Notes counts of what no event is called.
+fn check_counts(source: &Source<'_>, text: &Text, counts: &[(String, usize)]) {
+    let names = event_symbols(text);
+    for (name, at) in counts.iter().filter(|it| !names.contains(&it.0)) {
+        source.fault(*at, format!("no event is called {name:?}{}", hint(name, &names)));
+    }
 }
 
 fn check_guards(source: &Source<'_>, text: &Text, at: usize) {

@@ -9,6 +9,7 @@ use crate::text::content::Section;
 use crate::text::mode::{TextEvent, TextMode};
 use crate::text::oscillator::Oscillator;
 use crate::text::program::Program;
+use crate::text::sums::Sums;
 
 /// The system of a text, driven or autonomous: `D` coordinates on its section, states in `N` places.
 #[derive(Debug, Clone)]
@@ -43,6 +44,25 @@ impl<const D: usize, const N: usize, const AUTONOMOUS: bool> TextSystem<D, N, AU
         TextSystem { turns, ..self }
     }
 
+    /// The program of its text.
+    pub fn program(&self) -> &'static Program {
+        self.program
+    }
+
+    /// The values of its parameters.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The same with these values of its parameters.
+    ///
+    /// # Panics
+    /// Where there is not one for each.
+    pub fn with_values(self, values: Vec<f64>) -> Self {
+        assert!(values.len() == self.values.len(), "a value for each parameter");
+        TextSystem { values, ..self }
+    }
+
     /// The same with another value of the parameter called `name`.
     ///
     /// # Panics
@@ -74,8 +94,8 @@ impl<const D: usize, const N: usize, const AUTONOMOUS: bool> System<D>
     type Mode<L: Lane> = TextMode<L>;
     type Single = Oscillator<f64, D, N, AUTONOMOUS>;
     type In<L: Lane> = Oscillator<L, D, N, AUTONOMOUS>;
-    type Observer = ();
-    type Observers<L: Lane> = ();
+    type Observer = Sums<f64>;
+    type Observers<L: Lane> = Sums<L>;
 
     fn single(&self) -> Self::Single {
         self.constant()
@@ -105,7 +125,9 @@ impl<const D: usize, const N: usize, const AUTONOMOUS: bool> System<D>
         Metric::new(std::array::from_fn(|i| scales[i]))
     }
 
-    fn observer(&self, _points: usize) {}
+    fn observer(&self, _points: usize) -> Sums<f64> {
+        Sums::none(self.program)
+    }
 
     fn is_alike(&self, other: &Self) -> bool {
         ptr::eq(self.program, other.program)

@@ -1,9 +1,10 @@
 //! Expressions as values of the graph: names looked up, definitions in their places.
 
+use crate::text::content::Measured;
 use crate::text::expression::{Condition, Expression, Kind, Operator, condition, expression};
 use crate::text::function::Function;
 use crate::text::graph::{Graph, Id, Level, Node};
-use crate::text::names::{Meaning, Names, OF_TWO};
+use crate::text::names::{MEASURES, Meaning, Names, OF_TWO};
 use crate::text::written::{Source, Written, hint};
 
 /// Values of a text at most, so that what goes through them needs no more room than a thread has.
@@ -24,6 +25,14 @@ pub struct Values<'a, 's> {
     definitions: Vec<Definition>,
     /// How many definitions are being computed, one for the next.
     depth: usize,
+    /// What is measured for outputs.
+    pub measured: Vec<Measured>,
+    /// The events of which there are counts, with where these stand.
+    pub counts: Vec<(String, usize)>,
+    /// The outputs that are known so far, by their places.
+    pub outputs: Vec<Option<Id>>,
+    /// Whether an output is read, which may measure something.
+    pub is_output: bool,
 }
 
 /// How far a definition has come.
@@ -39,7 +48,18 @@ impl<'a, 's> Values<'a, 's> {
     pub fn new(source: &'s Source<'a>, names: Names, frictions: usize) -> Self {
         let definitions = vec![Definition::Waits; names.definitions.len()];
         let of_frictions = vec![None; frictions];
-        Values { source, names, graph: Graph::default(), of_frictions, definitions, depth: 0 }
+        Values {
+            source,
+            names,
+            graph: Graph::default(),
+            of_frictions,
+            definitions,
+            depth: 0,
+            measured: Vec::new(),
+            counts: Vec::new(),
+            outputs: Vec::new(),
+            is_output: false,
+        }
     }
 
     /// The value of an expression; none where something in it is wrong.
@@ -121,6 +141,16 @@ impl<'a, 's> Values<'a, 's> {
             Meaning::Pulse(place) => self.graph.leaf(Node::Pulse(place)),
             Meaning::Friction(place) => self.graph.leaf(Node::Friction(place)),
             Meaning::Definition(place) => return self.definition(place, Some(at)),
+            Meaning::Output(place) => match self.outputs.get(place).filter(|_| self.is_output) {
+                Some(known) => return *known,
+                None => {
+                    let message = format!(
+                        "{name} is an output, of which outputs alone may be that stand after it"
+                    );
+                    self.source.fault(at, message);
+                    return None;
+                }
+            },
         })
     }
 
@@ -184,7 +214,47 @@ impl<'a, 's> Values<'a, 's> {
         Some(self.graph.div(one, power))
     }
 
+    /// The largest or least value, an integral or a count, of one argument.
+    fn measure(&mut self, name: &str, of: &Expression) -> Option<Id> {
+        let measured = if name == "count" {
+            let Kind::Name(event) = &of.kind else {
+                self.source.fault(of.at.start, "count is of the name of an event");
+                return None;
+            };
+            self.counts.push((event.clone(), of.at.start));
+            Measured::Count(event.clone())
+        } else {
+            self.is_output = false;
+            let value = self.of(of);
+            self.is_output = true;
+            let kinds = [
+                ("integral", Measured::Integral as fn(Id) -> Measured),
+                ("mean", Measured::Mean),
+                ("max", Measured::Largest),
+                ("min", Measured::Least),
+            ];
+            let kind = kinds.iter().find(|it| it.0 == name).expect("it is one of these").1;
+            kind(value?)
+        };
+        let known = self.measured.iter().position(|it| *it == measured);
+        let place = known.unwrap_or(self.measured.len());
+        if known.is_none() {
+            self.measured.push(measured);
+        }
+        Some(self.graph.leaf(Node::Measured(place)))
+    }
+
     fn call(&mut self, name: &str, arguments: &[Expression], at: usize) -> Option<Id> {
+        let is_measure = MEASURES.contains(&name) || OF_TWO.contains(&name);
+        if let ([of], true) = (arguments, self.is_output && is_measure) {
+            return self.measure(name, of);
+        }
+        if MEASURES.contains(&name) {
+            let message =
+                format!("{name} is of one value and for outputs alone, not one within another");
+            self.source.fault(at, message);
+            return None;
+        }
         let mut values = Vec::new();
         for argument in arguments {
             values.push(self.of(argument));
@@ -192,7 +262,8 @@ impl<'a, 's> Values<'a, 's> {
         let function = Function::NAMES.iter().find(|it| it.0 == name).map(|it| it.1);
         let expected = match (function, OF_TWO.contains(&name)) {
             (None, false) => {
-                let known = Function::NAMES.iter().map(|it| it.0).chain(OF_TWO);
+                let measures = MEASURES.into_iter().filter(|_| self.is_output);
+                let known = Function::NAMES.iter().map(|it| it.0).chain(OF_TWO).chain(measures);
                 let known: Vec<&str> = known.collect();
                 let message = format!("there is no function {name:?}{}", hint(name, known));
                 self.source.fault(at, message);

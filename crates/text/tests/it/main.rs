@@ -10,5 +10,7 @@ mod differences;
 mod draws;
 mod events;
 mod faults;
+mod more;
+mod outputs;
 mod random_texts;
 mod six;

@@ -1,0 +1,78 @@
+//! `capsulemap check`: what is wrong in a study or a system, or what follows from it.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::readable::counted;
+use super::terminal::print;
+use crate::campaign::{is_system_alone, read_study, read_system};
+use crate::description::Description;
+use crate::quantity::printable::printable;
+use crate::study::Study;
+
+const EXAMPLES: &str = "\
+Examples:
+  capsulemap check studies/overview.toml
+  capsulemap check systems/belt.toml";
+
+/// Say what is wrong in a study or in the text of a system, and if nothing is, what follows from it.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Check {
+    /// The study or the system, a TOML file.
+    file: PathBuf,
+}
+
+impl Check {
+    /// Carries the command out.
+    pub fn run(&self) -> Result<(), Failure> {
+        let mut text = format!("{}: no fault\n", printable(&self.file));
+        let model = match is_system_alone(&self.file)? {
+            true => read_system(&self.file)?,
+            false => {
+                let study = read_study(&self.file)?;
+                text.push_str(&of_study(&study));
+                study.base.model()
+            }
+        };
+        text.push_str(&of_model(model));
+        print(&text)
+    }
+}
+
+/// What a study asks for.
+fn of_study(study: &Study) -> String {
+    let mut text = String::new();
+    for remark in &study.remarks {
+        let _ = writeln!(text, "note: {remark}");
+    }
+    let shape: Vec<String> = study.shape().iter().map(ToString::to_string).collect();
+    let cases = counted(study.cases(), "case");
+    let _ = writeln!(text, "{:<12}{cases} ({})", "asks for", shape.join(" x "));
+    let outputs: Vec<&str> = study.outputs.iter().map(|it| it.name()).collect();
+    line(&mut text, "outputs", &outputs.join(", "));
+    text
+}
+
+/// What a model is.
+fn of_model(model: &'static Description) -> String {
+    let mut text = String::new();
+    line(&mut text, "model", model.name);
+    if model.made_of.is_none() {
+        return text;
+    }
+    for (what, it) in capsulemap_text::derived::derived(model) {
+        line(&mut text, what, &it);
+    }
+    text
+}
+
+/// A line, whose later ones are indented.
+fn line(text: &mut String, what: &str, it: &str) {
+    for (place, part) in it.lines().enumerate() {
+        let _ = writeln!(text, "{:<12}{part}", if place == 0 { what } else { "" });
+    }
+}
