@@ -167,7 +167,7 @@ fn replay(motion: &RefinedMotion, protocol: &Protocol, file: &str) -> String {
 pub fn command(case: &Case, protocol: &Protocol, file: &str) -> String {
     let Case { parameters, start, start_phase, section_phase } = case;
     let mut text = "capsulemap simulate".to_owned();
-    if parameters.model().made_of.is_some() {
+    if parameters.model().equations.is_some() {
         text += &format!(" --system {}", quoted(file));
     } else if parameters.model() != default_model() {
         text += &format!(" --model {}", parameters.model().name);

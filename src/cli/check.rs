@@ -46,14 +46,20 @@ impl Check {
 /// What a study asks for.
 fn of_study(study: &Study) -> String {
     let mut text = String::new();
-    for remark in &study.remarks {
-        let _ = writeln!(text, "note: {remark}");
+    let notes = study.remarks.iter().cloned().chain(study.remarks_on_values());
+    let notes = notes.chain(study.axes_without_effect()).chain(study.branches_without_effect());
+    for note in notes {
+        let _ = writeln!(text, "note: {note}");
     }
     let shape: Vec<String> = study.shape().iter().map(ToString::to_string).collect();
     let cases = counted(study.cases(), "case");
     let _ = writeln!(text, "{:<12}{cases} ({})", "asks for", shape.join(" x "));
     let outputs: Vec<&str> = study.outputs.iter().map(|it| it.name()).collect();
     line(&mut text, "outputs", &outputs.join(", "));
+    let parameters = study.with_parts();
+    if let Some(member) = (parameters.model().rules.member)(&parameters) {
+        line(&mut text, "member", &member);
+    }
     text
 }
 
@@ -61,7 +67,7 @@ fn of_study(study: &Study) -> String {
 fn of_model(model: &'static Description) -> String {
     let mut text = String::new();
     line(&mut text, "model", model.name);
-    if model.made_of.is_none() {
+    if model.equations.is_none() {
         return text;
     }
     for (what, it) in capsulemap_text::derived::derived(model) {

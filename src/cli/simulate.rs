@@ -64,7 +64,7 @@ pub struct Simulate {
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     delta: Option<String>,
     /// Any parameter: m1, m2, k1, c, k2, delta, p_d, omega, mu_s, mu_d, v_s, g, c1, c2, and those of the family of capsules, as
-    /// duty, incline or k3 (studies/README.md has all).
+    /// duty, incline or k3 (studies/README.md has all); of another model or a system, those that it has.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Start of the motion (r, y1, x2, y2, over folds place, too); at rest by default.

@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use crate::description::{Description, Parameters};
+use crate::description::{Description, Parameter, Parameters};
 use crate::explore::{remarks, told};
 use crate::motion::{Orbit, Simulation};
+use crate::quantity::Dimension;
 
 /// A coordinate of the state as the table of a motion shows it.
 struct ShownCoordinate {
@@ -29,13 +30,21 @@ impl ShownCoordinate {
     }
 }
 
+/// Whether anything of a model has a unit; without, time has none either.
+fn has_units(model: &'static Description) -> bool {
+    let states = model.coordinates().map(|it| it.start().dimension);
+    let mut all = states.chain(model.parameters().map(Parameter::dimension));
+    all.any(|it| it != Dimension::Number)
+}
+
 /// What a person wants to see first.
 pub fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> String {
     let given: Vec<String> = parameters
         .stated()
         .map(|(parameter, value)| format!("{} = {value}", parameter.symbol()))
         .collect();
-    let mut text = format!("{} (SI)\n", given.join(", "));
+    let system_of_units = if has_units(parameters.model()) { " (SI)" } else { "" };
+    let mut text = format!("{}{system_of_units}\n", given.join(", "));
     if let Some(member) = (parameters.model().rules.member)(parameters) {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "member of the family: {member}");
@@ -66,7 +75,8 @@ pub fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) 
 fn write_section(text: &mut String, model: &'static Description, simulation: &Simulation) {
     let coordinates: Vec<ShownCoordinate> =
         (0..model.coordinates.len()).map(|place| ShownCoordinate::of(model, place)).collect();
-    let _ = write!(text, "{:>5} {:>12}", "cycle", "t [s]");
+    let time = if has_units(model) { "t [s]" } else { "t" };
+    let _ = write!(text, "{:>5} {time:>12}", "cycle");
     for it in &coordinates {
         let _ = write!(text, " {:>14}", it.head);
     }

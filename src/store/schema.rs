@@ -104,8 +104,8 @@ pub fn frame(study: &Study) -> Dataset {
         dataset.attributes.insert(INHERITED_ALONG.to_owned(), axis.to_owned());
     }
     dataset.texts.insert(STUDY_TEXT.to_owned(), study.text.clone());
-    if let Some(made_of) = study.base.model().made_of {
-        dataset.texts.insert(SYSTEM_TEXT.to_owned(), made_of.tables.to_owned());
+    if let Some(equations) = study.base.model().equations {
+        dataset.texts.insert(SYSTEM_TEXT.to_owned(), equations.tables.to_owned());
     }
     dataset
 }

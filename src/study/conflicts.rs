@@ -36,15 +36,12 @@ fn first_conflicts(study: &Study) -> Option<Vec<Remark>> {
     };
     let of_branches =
         study.branches.iter().find_map(|it| conflicts(&it.parameters, it.section_phase));
-    let found = of_branches.or_else(|| conflicts(&base.parameters, base.section_phase));
-    if found.is_some() {
-        return found;
-    }
-    // What is optional alone can be in conflict; without it there may be millions of values to look at for nothing.
-    match base.parameters.have_optional_parts() {
+    // What is optional alone can be in conflict; without it there may be millions of values to look at for nothing. Where it varies, what
+    // it would be unless it did is no case.
+    of_branches.or_else(|| match base.parameters.have_optional_parts() {
         true => in_what_varies(study, base),
-        false => None,
-    }
+        false => conflicts(&base.parameters, base.section_phase),
+    })
 }
 
 fn conflicts(parameters: &Parameters, phase: f64) -> Option<Vec<Remark>> {

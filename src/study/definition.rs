@@ -130,8 +130,8 @@ impl Study {
         let mut hasher = SipHasher13::new();
         // Numbers are shown with all the digits that distinguish them.
         format!("{computed:?}").hash(&mut hasher);
-        if let Some(made_of) = self.base.model().made_of {
-            made_of.tables.hash(&mut hasher);
+        if let Some(equations) = self.base.model().equations {
+            equations.tables.hash(&mut hasher);
         }
         let Hash128 { h1, h2 } = hasher.finish128();
         format!("{h1:016x}{h2:016x}")

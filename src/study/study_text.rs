@@ -24,7 +24,7 @@ impl Study {
             document.put("title", text(&self.title));
         }
         let model = self.base.model();
-        if model != default_model() && model.made_of.is_none() {
+        if model != default_model() && model.equations.is_none() {
             document.put("model", text(model.name));
         }
         if !self.outputs.iter().copied().eq(self.base.model().outputs()) {
@@ -47,8 +47,8 @@ impl Study {
         self.drawings
             .iter()
             .for_each(|drawing| write_drawing(&mut document, drawing, self.base.model()));
-        if let Some(made_of) = model.made_of {
-            document.0 = format!("{}\n{}", document.0, made_of.tables);
+        if let Some(equations) = model.equations {
+            document.0 = format!("{}\n{}", document.0, equations.tables);
         }
         document.0
     }

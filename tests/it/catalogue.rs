@@ -16,18 +16,19 @@ use super::house::{LIBRARY, sources, string_length};
 use super::program::WorkDir;
 
 /// The files that give parameters, starts, outputs and the dimensions of cases their names.
-const DEFINING: [&str; 7] = [
+const DEFINING: [&str; 8] = [
     "crates/models/src/capsule/parameter.rs",
     "crates/models/src/capsule/output.rs",
     "crates/models/src/capsule/description.rs",
     "crates/models/src/capsule/quantities.rs",
     "crates/models/src/description/phases.rs",
+    "crates/text/src/text/described.rs",
     "src/study/grid.rs",
     "src/study/draws.rs",
 ];
 
 /// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
-const OTHERS: [(&str, &[&str], &str); 18] = [
+const OTHERS: [(&str, &[&str], &str); 19] = [
     ("src/study/study_file.rs", &["cycles", "attractor"], "keys of a study"),
     ("src/study/study_text.rs", KEYS, "keys of a study"),
     ("src/study/start_file.rs", &["direction"], "keys of a study"),
@@ -43,6 +44,7 @@ const OTHERS: [(&str, &[&str], &str); 18] = [
     ),
     ("crates/models/src/quantity/units.rs", &["g"], "the gram"),
     ("crates/text/src/text/parts.rs", &["period", "duty"], "keys of a text"),
+    ("crates/text/src/text/symbol.rs", &["delta", "omega"], "names of letters"),
     ("src/figure/text.rs", &["delta", "omega"], "names of symbols in TeX"),
     ("src/cli/simulate.rs", OPTIONS, "options of a command"),
     ("src/cli/phases.rs", &["start_phase", "section_phase"], "options of a command"),

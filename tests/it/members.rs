@@ -128,6 +128,17 @@ fn what_cannot_be_is_refused_with_the_reason() {
     let two_phase = ["simulate", "--drive", "two-phase", "--section-phase"];
     dir.run(&[&two_phase[..], &["0"]].concat()).refused(&["the velocities jump there"]);
     dir.run(&[&two_phase[..], &["90 deg"]].concat()).done();
+    // What an axis replaces is no case: the duty of 0.5 that the drive has otherwise.
+    let halfway =
+        "drive = \"square\"\n[start]\nsection_phase = \"180 deg\"\n[[axes]]\nname = \"duty\"\n";
+    let values = "values = [0.1, 0.3, 0.4]\n";
+    dir.put("yes.toml", format!("{FIG5}{halfway}{values}"));
+    let checked = dir.run(&["check", "yes.toml"]).done().out;
+    assert!(checked.contains("member      square drive"), "{checked}");
+    refused(
+        &format!("{halfway}values = [0.1, 0.5]\n"),
+        &["axes.duty", "the edge of the drive at 0.5"],
+    );
 }
 
 /// Where the motion of the mass is prescribed, and where its stop is rigid, a study need not say what has no effect.
@@ -167,8 +178,10 @@ fn what_has_no_effect_or_runs_away_is_told_before_it_is_computed() {
     let told = |text: &str, parts: &[&str]| {
         dir.put("note.toml", format!("{FIG5}{text}"));
         let ran = dir.run(&["sweep", "note.toml", "--dry-run"]).done();
+        let checked = dir.run(&["check", "note.toml"]).done();
         for part in parts {
             assert!(ran.err.contains(part), "{part:?} is missing from:\n{}", ran.err);
+            assert!(checked.out.contains(part), "{part:?} is missing from:\n{}", checked.out);
         }
     };
     told(

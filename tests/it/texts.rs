@@ -172,6 +172,17 @@ fn new_studies_are_checked_and_computed_as_they_stand() {
 }
 
 #[test]
+fn a_start_behind_a_bound_is_told_as_one() {
+    let work = WorkDir::new();
+    work.put("impact.toml", system("impact.toml"));
+    let start = ["simulate", "--system", "impact.toml", "--start", "x=1.5"];
+    let told = work.run(&start).done().out;
+    assert!(told.contains("no motion starts there"), "{told}");
+    // Nothing of it has a unit.
+    assert!(!told.contains("(SI)") && !told.contains("[s]"), "{told}");
+}
+
+#[test]
 fn what_follows_from_a_text_is_told() {
     let work = WorkDir::new();
     work.put("capsule.toml", system("capsule.toml"));
@@ -191,4 +202,21 @@ fn what_follows_from_a_text_is_told() {
         digits.parse::<usize>().expect("a number")
     });
     assert_eq!(own, of_capsule, "{checked}");
+}
+
+#[test]
+fn every_system_of_the_repository_is_checked_without_a_fault() {
+    let work = WorkDir::new();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("systems");
+    let mut count = 0;
+    for entry in fs::read_dir(folder).expect("the folder of systems") {
+        let name = entry.expect("a file").file_name().into_string().expect("a name");
+        if name.ends_with(".toml") {
+            work.put(&name, system(&name));
+            let checked = work.run(&["check", &name]).done().out;
+            assert!(checked.contains("no fault"), "{checked}");
+            count += 1;
+        }
+    }
+    assert!(count >= 11, "{count}");
 }

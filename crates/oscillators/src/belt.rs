@@ -110,7 +110,7 @@ pub static MASS_ON_BELT: Description = Description {
         section_residual: 6,
     },
     rules: Rules::NONE,
-    made_of: None,
+    equations: None,
 };
 
 /// The values of the parameters, in the order of the description.

@@ -128,7 +128,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         section_residual: 5,
     },
     rules: Rules::NONE,
-    made_of: None,
+    equations: None,
 };
 
 impl Face<2> for Impactor<f64> {

@@ -137,7 +137,7 @@ const ON_EVEN_GROUND: Description = Description {
         section_residual: Output::SectionResidual as usize,
     },
     rules: RULES,
-    made_of: None,
+    equations: None,
 };
 
 /// The capsule on a way with evenly spaced folds. Its displacement drifts, as on even ground; its place between two folds is a

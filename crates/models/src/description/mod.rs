@@ -61,22 +61,22 @@ pub struct Description {
     pub roles: Roles,
     /// What it says of values beside each other.
     pub rules: Rules,
-    /// What its systems are made of beside the values of their parameters, as a text; none where the program has all of it.
-    pub made_of: Option<MadeOf>,
+    /// The equations of its systems, where they are given as a text; none where the program has them.
+    pub equations: Option<Equations>,
 }
 
-/// What the systems of a model are made of beside the values of their parameters.
+/// Equations that are given as a text.
 #[derive(Clone, Copy)]
-pub struct MadeOf {
-    /// It, for those who know what it is.
+pub struct Equations {
+    /// They, for those who know what they are.
     pub content: &'static (dyn Any + Send + Sync),
-    /// The tables of a study that say it, which differ where it does.
+    /// The tables of a study that say them, which differ where they do.
     pub tables: &'static str,
 }
 
-impl Debug for MadeOf {
+impl Debug for Equations {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("MadeOf").field(&self.tables).finish()
+        f.debug_tuple("Equations").field(&self.tables).finish()
     }
 }
 

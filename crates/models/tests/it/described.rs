@@ -41,7 +41,7 @@ static OTHER: Description = Description {
     outputs: &[],
     roles: CAPSULE.roles,
     rules: CAPSULE.rules,
-    made_of: None,
+    equations: None,
 };
 
 #[test]

@@ -63,7 +63,7 @@ static WRONG: Description = Description {
         ..CAPSULE.roles
     },
     rules: Rules::NONE,
-    made_of: None,
+    equations: None,
 };
 
 impl Face<2> for Duffing<f64> {

@@ -169,8 +169,19 @@ pub struct Event {
     pub reset: Vec<(usize, Id)>,
     /// Whether its condition is on its bound after it, too.
     pub stays_on_surface: bool,
+    /// What is held where impacts accumulate, if they end in a contact that lasts.
+    pub lasting: Option<Lasting>,
     /// What depends on states that it moves.
     pub moved: Moved,
+}
+
+/// A contact that lasts: the state on the bound and its rate stay there as long as the forces press.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Lasting {
+    /// The state that is the rate of that on the bound, by its place.
+    pub velocity: usize,
+    /// Whether the motion is above the bound; else it is below.
+    pub is_above: bool,
 }
 
 /// What depends on states that an event moves, each by place.

@@ -21,7 +21,7 @@ pub fn derived(model: &'static Description) -> Vec<(&'static str, String)> {
     let events: Vec<String> = program.events.iter().map(|it| event_name(text, *it)).collect();
     vec![
         ("states", with_units(text.states.iter().map(|it| (&it.name, Some(&it.unit))))),
-        ("parameters", parameters(text)),
+        ("defaults", parameters(text)),
         ("section", section(text)),
         ("modes", modes(text)),
         ("guards", guards(text)),
@@ -68,7 +68,9 @@ fn section(text: &Text) -> String {
 }
 
 fn modes(text: &Text) -> String {
-    let count = 2_usize.pow((text.switches.len() + text.pulses.len()) as u32)
+    let lasting: Vec<&String> =
+        text.events.iter().filter(|it| it.lasting.is_some()).map(|it| &it.name).collect();
+    let count = 2_usize.pow((text.switches.len() + text.pulses.len() + lasting.len()) as u32)
         * 3_usize.pow(text.frictions.len() as u32);
     let of = |names: Vec<&String>, what: &str| {
         let names: Vec<&str> = names.into_iter().map(String::as_str).collect();
@@ -81,6 +83,7 @@ fn modes(text: &Text) -> String {
             "frictions, which rest or slide either way:",
         ),
         of(text.pulses.iter().map(|it| &it.name).collect(), "pulses"),
+        of(lasting, "contacts that last after"),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     match parts.is_empty() {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use capsulemap_models::description::{
-    Chart, CoordinateDescription, Description, DriveRoles, MadeOf, MotionDescription,
+    Chart, CoordinateDescription, Description, DriveRoles, Equations, MotionDescription,
     OutputDescription, ParameterDescription, Parameters, Presence, Roles, Rules, Signal,
     SignalKind,
 };
@@ -63,17 +63,17 @@ fn list<T>(items: impl IntoIterator<Item = T>) -> &'static [T] {
     Box::leak(items.into_iter().collect::<Vec<_>>().into_boxed_slice())
 }
 
-/// The program of a text that a model was made of.
+/// The program of the text that has the equations of a model.
 ///
 /// # Panics
-/// Where it was made of no text.
+/// Where the program has them.
 pub fn program_of(model: &'static Description) -> &'static Program {
-    let made_of = model.made_of.map(|it| it.content);
-    made_of.and_then(|it| it.downcast_ref()).expect("the model of a text")
+    let equations = model.equations.map(|it| it.content);
+    equations.and_then(|it| it.downcast_ref()).expect("the model of a text")
 }
 
 /// The description of the model of a program.
-pub fn description(program: &'static Program, made_of: MadeOf) -> &'static Description {
+pub fn description(program: &'static Program, equations: Equations) -> &'static Description {
     let text = &program.text;
     let on_section: Vec<usize> = text.on_section().collect();
     let of_section = |prefix: &str, meaning: &str| {
@@ -121,7 +121,7 @@ pub fn description(program: &'static Program, made_of: MadeOf) -> &'static Descr
             section_residual: first_of_all(text) + SECTION_RESIDUAL,
         },
         rules: Rules::NONE,
-        made_of: Some(made_of),
+        equations: Some(equations),
     }))
 }
 

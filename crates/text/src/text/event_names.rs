@@ -24,6 +24,10 @@ pub fn event_name(text: &Text, event: TextEvent) -> String {
         EventKind::SlipBackward => of_friction("slip backward"),
         EventKind::Stick => of_friction("stick"),
         EventKind::Reversal => of_friction("reversal"),
+        EventKind::Opens => {
+            let lasting = text.events.get(place).filter(|it| it.lasting.is_some());
+            lasting.map(|it| format!("{} ends", it.name))
+        }
         EventKind::Edge => (!text.pulses.is_empty() && place == 0).then(|| "edge".into()),
     };
     name.unwrap_or_else(|| "none".into())

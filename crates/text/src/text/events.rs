@@ -1,9 +1,10 @@
 //! What happens where a mode ends, and in which mode a motion starts.
 
-use capsulemap_engine::flow::{Event as _, Zeros};
+use capsulemap_engine::flow::Event as _;
 use capsulemap_engine::in_lanes;
 use capsulemap_engine::lane::{Lane, Mask};
 
+use crate::text::due::Due;
 use crate::text::instructions::Guard;
 use crate::text::interpreter::{at, slides};
 use crate::text::mode::{EventKind, TextEvent, TextMode};
@@ -12,19 +13,6 @@ use crate::text::program::touches;
 
 /// Two sizes of a friction that are no farther apart, relative to them, are one: then sliding begins without a jump of the force.
 const SAME: f64 = 1e-9;
-
-/// A guard that is due, with what its event changes.
-pub(crate) struct Due<'a, L: Lane, const N: usize> {
-    /// Which guard.
-    pub(crate) which: usize,
-    /// In which lanes.
-    pub(crate) here: L::Mask,
-    pub(crate) mode: &'a mut TextMode<L>,
-    pub(crate) state: &'a mut [L; N],
-    pub(crate) zeros: &'a mut Zeros<L>,
-    /// When, since the start of the cycle.
-    pub(crate) time: L,
-}
 
 in_lanes! {
     impl<L: Lane, const D: usize, const N: usize, const AUTONOMOUS: bool>
@@ -39,13 +27,21 @@ in_lanes! {
             let mut code = self.begin_event(guard, &mut due);
             let has_frictions = !self.program.frictions.is_empty();
             let needs_before = matches!(guard, Guard::Event(_) | Guard::Forward(_) | Guard::Backward(_));
-            let moves_sides = matches!(guard, Guard::Event(event) if self.program.crosses[event]);
-            let passes = [needs_before, moves_sides, has_frictions];
+            let may_last = self.program.lasting.iter().any(Option::is_some);
+            let moves_sides = matches!(
+                guard,
+                Guard::Event(event) if self.program.crosses[event] || self.program.lasting[event].is_some()
+            );
+            let passes = [needs_before, moves_sides, has_frictions, may_last];
             for (pass, is_needed) in passes.into_iter().enumerate() {
                 if !is_needed {
                     continue;
                 }
                 let values = self.values(due.mode, due.time, due.state);
+                if pass == 3 {
+                    self.note_loose(due.here, &values, due.mode);
+                    continue;
+                }
                 match guard {
                     Guard::Event(event) if pass == 0 => self.reset(event, &values, &mut due),
                     Guard::Forward(friction) | Guard::Backward(friction) if pass == 0 => {
@@ -53,7 +49,10 @@ in_lanes! {
                     }
                     Guard::Forward(friction) => code = self.obey_friction((friction, true), &values, &mut due),
                     Guard::Backward(friction) => code = self.obey_friction((friction, false), &values, &mut due),
-                    Guard::Event(event) if pass == 1 => self.note_crossed(event, &values, &mut due),
+                    Guard::Event(event) if pass == 1 => {
+                        self.note_crossed(event, &values, &mut due);
+                        self.note_lasting(event, &values, &mut due);
+                    }
                     Guard::Event(event) => {
                         self.note_moved(event, &values, &mut due);
                         self.note_jumps(due.here, &values, due.mode);
@@ -72,6 +71,7 @@ in_lanes! {
                 Guard::Event(event) => {
                     let bound = self.program.bounds.events[event];
                     self.put_on(bound, here, due.state);
+                    let opens = self.open(event, due);
                     for zero in due.zeros.iter_mut() {
                         // The state moves: what another guard has left it may meet again at once.
                         *zero = L::select(here, L::splat(0.0), *zero);
@@ -79,7 +79,9 @@ in_lanes! {
                     if self.program.text.events[event].stays_on_surface {
                         due.zeros[due.which] = L::select(here, one, due.zeros[due.which]);
                     }
-                    code(if self.touches(bound) { EventKind::Impact } else { EventKind::Event }, event)
+                    due.zeros[due.which] = L::select(due.opens, opens, due.zeros[due.which]);
+                    let kind = if self.touches(bound) { EventKind::Impact } else { EventKind::Event };
+                    L::select(due.opens, code(EventKind::Opens, event), code(kind, event))
                 }
                 Guard::Switch(switch) => {
                     let on = L::Plain::splat(0.5).lt(due.mode.switches[switch]);
@@ -124,7 +126,7 @@ in_lanes! {
         fn reset(&self, event: usize, values: &Values<L>, due: &mut Due<'_, L, N>) {
             for (place, value) in &self.program.resets[event] {
                 let own = &mut due.state[self.program.layout[*place]];
-                *own = L::select(due.here, at(*value, &values.numbers, &values.registers), *own);
+                *own = L::select(due.here & !due.opens, at(*value, &values.numbers, &values.registers), *own);
             }
         }
 
@@ -270,6 +272,7 @@ in_lanes! {
                     continue;
                 }
                 self.note_jumps(everywhere, &values, &mut mode);
+                self.note_contacts(&values, &mut mode, state);
                 for friction in 0..self.program.frictions.len() {
                     let rests = !slides(&mode, friction);
                     // It rests whatever it was given, derivatives included.

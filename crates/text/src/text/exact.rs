@@ -94,6 +94,12 @@ impl<const D: usize, const N: usize, const AUTONOMOUS: bool> Field
         for (rate, at) in text.rates.iter().zip(&self.program.layout) {
             rates[*at] = point.value(*rate);
         }
+        for (place, it) in self.program.lasting.iter().enumerate() {
+            if let Some(it) = it.filter(|_| mode.contacts[place] > 0.5) {
+                rates[self.program.layout[it.state]] = 0.0;
+                rates[self.program.layout[it.velocity]] = 0.0;
+            }
+        }
         rates
     }
 

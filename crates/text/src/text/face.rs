@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use capsulemap_engine::orbit::OrbitOf;
 use capsulemap_models::description::{Description, Outputs, Parameter, Parameters, State};
 use capsulemap_models::face::Face;
-use capsulemap_models::motion::reduced;
+use capsulemap_models::motion::{Case, reduced};
 
 use crate::text::described::{
     CYCLE_DURATION, DEFECT, EXCLUDED_PERIOD, EXPONENT, EXPONENT_ERROR, LARGEST_MULTIPLIER,
@@ -45,6 +45,11 @@ impl<const D: usize, const N: usize, const AUTONOMOUS: bool> Face<D>
     fn told(&self, state: &[f64; N]) -> State {
         let values: Vec<f64> = self.program().layout.iter().map(|at| state[*at]).collect();
         State::new(self.description(), &values)
+    }
+
+    fn has_no_start(case: &Case) -> bool {
+        Self::of(&case.parameters, case.section_phase)
+            .is_behind(case.start_time(), Self::state(&case.start))
     }
 
     fn outputs(&self, orbit: &OrbitOf<Self, D>, _: f64) -> Outputs {

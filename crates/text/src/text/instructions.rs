@@ -225,6 +225,19 @@ pub struct FrictionPlaces {
     pub others: Vec<(usize, Scalar)>,
 }
 
+/// What a contact that lasts holds, and what presses on it.
+#[derive(Debug, Clone, Copy)]
+pub struct LastingPlaces {
+    /// The state on the bound.
+    pub state: usize,
+    /// That which is its rate.
+    pub velocity: usize,
+    /// The rate of that, which would be without the contact.
+    pub acceleration: Place,
+    /// What makes of an acceleration one towards the bound: -1 where the motion is above it, else 1.
+    pub towards: f64,
+}
+
 /// Where the motion is put on surfaces: a state and its value, by place.
 #[derive(Debug, Clone, Default)]
 pub struct Bounds {

@@ -1,9 +1,11 @@
 //! From the characters of a text to a system of the engine.
 
+mod contacts;
 pub mod content;
 mod dependence;
 pub mod derived;
 pub mod described;
+mod due;
 mod entries;
 mod event_names;
 mod events;

@@ -22,12 +22,23 @@ pub struct TextMode<L: Lane> {
     pub thrown: [L::Plain; FEW],
     /// Of each pulse how many edges have passed in the cycle.
     pub passed: [L::Plain; FEW],
+    /// Of each event 1 where its contact lasts, else 0.
+    pub contacts: [L::Plain; MAX_GUARDS],
+    /// Of each contact that lasts 1 where what presses on it has jumped below zero, so that it opens at once.
+    pub loose: [L::Plain; MAX_GUARDS],
 }
 
 impl<L: Lane> Default for TextMode<L> {
     fn default() -> Self {
         let (many, few) = ([L::Plain::ZERO; MAX_GUARDS], [L::Plain::ZERO; FEW]);
-        TextMode { switches: many, signs: few, thrown: few, passed: few }
+        TextMode {
+            switches: many,
+            signs: few,
+            thrown: few,
+            passed: few,
+            contacts: many,
+            loose: many,
+        }
     }
 }
 
@@ -41,6 +52,8 @@ impl<L: Lane> SideBySide for TextMode<L> {
             signs: SideBySide::splat(&one.signs),
             thrown: SideBySide::splat(&one.thrown),
             passed: SideBySide::splat(&one.passed),
+            contacts: SideBySide::splat(&one.contacts),
+            loose: SideBySide::splat(&one.loose),
         }
     }
     #[inline(always)]
@@ -50,6 +63,8 @@ impl<L: Lane> SideBySide for TextMode<L> {
             signs: self.signs.lane(index),
             thrown: self.thrown.lane(index),
             passed: self.passed.lane(index),
+            contacts: self.contacts.lane(index),
+            loose: self.loose.lane(index),
         }
     }
     #[inline(always)]
@@ -58,6 +73,8 @@ impl<L: Lane> SideBySide for TextMode<L> {
         self.signs.put(index, &one.signs);
         self.thrown.put(index, &one.thrown);
         self.passed.put(index, &one.passed);
+        self.contacts.put(index, &one.contacts);
+        self.loose.put(index, &one.loose);
     }
     #[inline(always)]
     fn take_lane(&mut self, index: usize, other: &Self) {
@@ -65,7 +82,15 @@ impl<L: Lane> SideBySide for TextMode<L> {
         self.signs.take_lane(index, &other.signs);
         self.thrown.take_lane(index, &other.thrown);
         self.passed.take_lane(index, &other.passed);
+        self.contacts.take_lane(index, &other.contacts);
+        self.loose.take_lane(index, &other.loose);
     }
+}
+
+/// Where a part of a mode is 1.
+#[inline(always)]
+pub fn is_on<P: Lane>(part: P) -> P::Mask {
+    P::splat(0.5).lt(part)
 }
 
 /// What happens where a mode ends, with the place of what it happens to.
@@ -95,10 +120,12 @@ pub enum EventKind {
     Reversal,
     /// An edge of a pulse.
     Edge,
+    /// A contact that has lasted ends.
+    Opens,
 }
 
 impl EventKind {
-    const ALL: [EventKind; 10] = [
+    const ALL: [EventKind; 11] = [
         EventKind::Impact,
         EventKind::Event,
         EventKind::EntersContact,
@@ -109,6 +136,7 @@ impl EventKind {
         EventKind::Stick,
         EventKind::Reversal,
         EventKind::Edge,
+        EventKind::Opens,
     ];
 }
 

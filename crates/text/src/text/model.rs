@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use capsulemap_models::description::{Description, MadeOf};
+use capsulemap_models::description::{Description, Equations};
 use capsulemap_models::model::Model;
 use capsulemap_models::of::{Of, make_known};
 
@@ -34,7 +34,7 @@ pub fn model(text: &str) -> Result<&'static Description, Vec<Fault>> {
     if let Some(description) = known.get(&tables) {
         return Ok(description);
     }
-    let (model, description) = made(read, tables.clone());
+    let (model, description) = of_text(read, tables.clone());
     if let Err(why) = make_known(model) {
         return Err(vec![Fault::at(text, 0, why.to_string())]);
     }
@@ -49,13 +49,13 @@ pub fn of_tables(tables: &str) -> Option<&'static Description> {
 }
 
 /// The model of a text, with its description.
-fn made(text: Text, tables: String) -> (&'static dyn Model, &'static Description) {
+fn of_text(text: Text, tables: String) -> (&'static dyn Model, &'static Description) {
     let room = if text.on_section().count() <= FEW { FEW } else { MANY };
     let is_driven = matches!(text.section, Section::Every(_));
     let program: &'static Program = Box::leak(Box::new(Program::new(text, room)));
     let tables = Box::leak(tables.into_boxed_str());
-    let made_of = MadeOf { content: program, tables };
-    let description = description(program, made_of);
+    let equations = Equations { content: program, tables };
+    let description = description(program, equations);
     program.description.set(description).expect("it is described once");
     let model: &'static dyn Model = match (is_driven, room) {
         (true, FEW) => Box::leak(Box::new(Of::<Driven<FEW, 5>, FEW>::described(description))),

@@ -3,10 +3,11 @@
 use toml::de::DeTable;
 
 use crate::text::content::{
-    Bound, Event, MOST_OF_A_KIND, Moved, Parameter, Pulse, Section, State, Switch, TextOutput,
+    Bound, Event, Lasting, MOST_OF_A_KIND, Moved, Parameter, Pulse, Section, State, Switch,
+    TextOutput,
 };
 use crate::text::entries::{Entry, Parsed, Value, entries, needed};
-use crate::text::graph::{Graph, Id, Level};
+use crate::text::graph::{Graph, Id, Level, Node};
 use crate::text::linear::linear;
 use crate::text::values::Values;
 use crate::text::written::{Source, hint, place_of};
@@ -110,6 +111,7 @@ pub(crate) fn events<'a>(
     values: &mut Values<'a, '_>,
     parsed: &Parsed<'_, 'a>,
     table: &DeTable<'a>,
+    rates: Option<&[Id]>,
 ) -> Option<Vec<Event>> {
     let source = values.source;
     let Some(value) = table.get("events") else { return Some(Vec::new()) };
@@ -123,7 +125,7 @@ pub(crate) fn events<'a>(
             source.fault(it.span().start, format!("more than {MOST_OF_A_KIND} events"));
             return None;
         }
-        events.push(event(values, parsed, it));
+        events.push(event(values, parsed, it, rates));
     }
     events.into_iter().collect()
 }
@@ -132,10 +134,11 @@ fn event<'a>(
     values: &mut Values<'a, '_>,
     parsed: &Parsed<'_, 'a>,
     value: &Value<'a>,
+    rates: Option<&[Id]>,
 ) -> Option<Event> {
     let source = values.source;
     let table = source.table(value, "an event")?;
-    source.only(table, "[[system.events]]", &["name", "while", "reset"]);
+    source.only(table, "[[system.events]]", &["name", "while", "reset", "lasting"]);
     let entry = Entry { name: "an event".into(), at: value.span().start, value };
     let name = needed(source, table, &entry, "name");
     let condition = needed(source, table, &entry, "while");
@@ -153,7 +156,46 @@ fn event<'a>(
     let lasts = lasts?;
     let bound = bound(&mut values.graph, lasts);
     let (stays_on_surface, moved) = (true, Moved::default());
-    Some(Event { name: name?.characters, lasts, bound, reset: reset?, stays_on_surface, moved })
+    let (name, reset) = (name?.characters, reset?);
+    let lasting = match table.get("lasting") {
+        None => None,
+        Some(it) if it.get_ref().as_bool() == Some(false) => None,
+        Some(it) if it.get_ref().as_bool() == Some(true) => {
+            let found = lasting(&mut values.graph, (lasts, bound), rates?, &reset);
+            if let Err(message) = found {
+                source.fault(it.span().start, format!("{name} cannot last: {message}"));
+            }
+            Some(found.ok()?)
+        }
+        Some(it) => {
+            source.fault(it.span().start, "lasting must be true or false");
+            return None;
+        }
+    };
+    Some(Event { name, lasts, bound, reset, stays_on_surface, lasting, moved })
+}
+
+/// What is held in a contact that lasts at the bound of an event, or why it cannot be.
+fn lasting(
+    graph: &mut Graph,
+    (lasts, bound): (Id, Option<Bound>),
+    rates: &[Id],
+    reset: &[(usize, Id)],
+) -> Result<Lasting, &'static str> {
+    let bound = bound.ok_or("its condition must be of one state and constants")?;
+    let Node::State(velocity) = graph.node(rates[bound.state]) else {
+        return Err("the rate of the state in its condition must be a state");
+    };
+    let factor = linear(graph, lasts).and_then(|it| graph.number_of(it.factors[0].1));
+    let factor = factor.ok_or("its condition must be that a state is above or below something")?;
+    let stays = reset.iter().all(|(state, value)| *state != bound.state || *value == bound.value);
+    if !stays {
+        return Err("it must leave the state in its condition on the bound");
+    }
+    if reset.iter().all(|(state, _)| *state != velocity) {
+        return Err("its reset must say what becomes of the rate of the state in its condition");
+    }
+    Ok(Lasting { velocity, is_above: factor > 0.0 })
 }
 
 pub(crate) fn section<'a>(

@@ -5,10 +5,10 @@ use std::sync::OnceLock;
 
 use capsulemap_models::description::Description;
 
-use crate::text::content::{Section, Text};
+use crate::text::content::{Event, Section, Text};
 use crate::text::instructions::{
-    Bounds, FrictionPlaces, Guard, Instruction, Place, Register, Scalar, ScalarStep, SeriesStep,
-    Unseen,
+    Bounds, FrictionPlaces, Guard, Instruction, LastingPlaces, Place, Register, Scalar, ScalarStep,
+    SeriesStep, Unseen,
 };
 use crate::text::lowering::Making;
 use crate::text::mode::{EventKind, TextEvent};
@@ -49,6 +49,8 @@ pub struct Program {
     pub duties: Vec<Scalar>,
     /// The period of the section, or the longest time that is waited for it.
     pub period: Scalar,
+    /// Of each event whether it ends in a contact that lasts, and what is held then.
+    pub lasting: Vec<Option<LastingPlaces>>,
     /// Of each switch and of each event where the motion is put.
     pub bounds: Bounds,
     /// The guards in their order.
@@ -106,6 +108,7 @@ impl Program {
             switches: text.switches.iter().map(|it| making.bound(it.bound)).collect(),
             events: text.events.iter().map(|it| making.bound(it.bound)).collect(),
         };
+        let lasting: Vec<_> = text.events.iter().map(|it| lasting(it, &rates)).collect();
         let guards = guards(&text);
         let touching = touching(&text, &bounds);
         let layout = layout(&text, room);
@@ -132,7 +135,9 @@ impl Program {
         let asked_for = sides.iter().chain(&lasts).copied();
         let of_guards: Vec<Place> = asked_for.chain(of_frictions(&frictions)).collect();
         let asked_for = observed_from.iter().map(|it| Place::Series(*it));
-        let asked_for: Vec<Place> = of_guards.into_iter().chain(asked_for).collect();
+        let pressing = lasting.iter().flatten().map(|it| it.acceleration);
+        let asked_for: Vec<Place> =
+            of_guards.into_iter().chain(asked_for).chain(pressing).collect();
         let series = kept(series, &asked_for);
         let paced = (0..text.states.len()).chain(growing).collect();
         Program {
@@ -148,6 +153,7 @@ impl Program {
             frictions,
             duties,
             period,
+            lasting,
             bounds,
             guards,
             paced,
@@ -163,6 +169,17 @@ impl Program {
             observed_from,
         }
     }
+}
+
+/// What the contact of an event that lasts holds.
+fn lasting(event: &Event, rates: &[Place]) -> Option<LastingPlaces> {
+    let (lasting, bound) = (event.lasting?, event.bound?);
+    Some(LastingPlaces {
+        state: bound.state,
+        velocity: lasting.velocity,
+        acceleration: rates[lasting.velocity],
+        towards: if lasting.is_above { -1.0 } else { 1.0 },
+    })
 }
 
 /// The registers of the motion that what is observed is of, or is.
@@ -191,6 +208,8 @@ fn events(text: &Text, bounds: &Bounds, touching: Option<Touching>) -> Vec<TextE
     let mut events = Vec::new();
     for (place, bound) in bounds.events.iter().enumerate() {
         events.push(TextEvent::of(of_bound(bound, [EventKind::Impact, EventKind::Event]), place));
+        let lasts = text.events[place].lasting.is_some();
+        events.extend(lasts.then_some(TextEvent::of(EventKind::Opens, place)));
     }
     for (place, bound) in bounds.switches.iter().enumerate() {
         let enters = of_bound(bound, [EventKind::EntersContact, EventKind::Enters]);

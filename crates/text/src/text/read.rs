@@ -86,6 +86,7 @@ fn of_table<'a>(source: &Source<'a>, table: &DeTable<'a>) -> Option<Text> {
     let text = Text { measured, outputs: outputs?, ..text };
     check_counts(source, &text, &counts);
     check_guards(source, &text, place_of(table));
+    check_lasting(source, &text, place_of(table));
     check_dependence(source, &text, table);
     Some(text.with_moved())
 }
@@ -120,7 +121,7 @@ impl Found {
             .map(|(it, of)| Some((of, parts::friction(values, it)?)))
             .map(|it| it.and_then(|(of, (sliding, holds))| Some((of?, sliding, holds))))
             .collect();
-        let events = parts::events(values, parsed, table);
+        let events = parts::events(values, parsed, table, rates.as_deref());
         let section = parts::section(values, parsed, table);
         let drift = parts::drift(values.source, parsed, table);
         let source = values.source;
@@ -229,6 +230,22 @@ fn check_counts(source: &Source<'_>, text: &Text, counts: &[(String, usize)]) {
     let names = event_symbols(text);
     for (name, at) in counts.iter().filter(|it| !names.contains(&it.0)) {
         source.fault(*at, format!("no event is called {name:?}{}", hint(name, &names)));
+    }
+}
+
+/// Notes frictions of what a contact that lasts holds: at rest, both would be solved for at once.
+fn check_lasting(source: &Source<'_>, text: &Text, at: usize) {
+    for event in &text.events {
+        let (Some(lasting), Some(bound)) = (event.lasting, event.bound) else { continue };
+        let held = [bound.state, lasting.velocity];
+        let of_held = |it: &&Friction| it.linear.factors.iter().any(|it| held.contains(&it.0));
+        if let Some(friction) = text.frictions.iter().find(of_held) {
+            let (event, friction) = (&event.name, &friction.name);
+            source.fault(
+                at,
+                format!("{event} cannot last: the friction {friction} is of what it holds"),
+            );
+        }
     }
 }
 

@@ -6,11 +6,11 @@ use capsulemap_engine::lane::elementary::not_finite;
 use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, series};
 
 use crate::text::content::Section;
-use crate::text::events::Due;
+use crate::text::due::Due;
 use crate::text::instructions::{Guard, Place, Unseen};
 use crate::text::interpreter::{carry_out, complete, series_of, slides};
 use crate::text::jet::TextJet;
-use crate::text::mode::{TextEvent, TextMode};
+use crate::text::mode::{TextEvent, TextMode, is_on};
 use crate::text::oscillator::Oscillator;
 
 /// An exponential whose argument is below this is less than the rounding of one.
@@ -28,6 +28,26 @@ in_lanes! {
         fn write(&self, place: Place, jet: &TextJet<L>, guard: &mut Series<L>) {
             let mut room = [L::ZERO; ORDER + 1];
             *guard = *series_of(place, &jet.numbers, &jet.registers, &mut room);
+        }
+
+        /// Writes what presses on the contact of an event, where it lasts.
+        fn write_pressing(
+            &self,
+            event: usize,
+            mode: &TextMode<L>,
+            jet: &TextJet<L>,
+            guard: &mut Series<L>,
+        ) {
+            let Some(it) = self.program.lasting[event] else { return };
+            let (holds, loose) = (is_on(mode.contacts[event]), is_on(mode.loose[event]));
+            let mut room = [L::ZERO; ORDER + 1];
+            let acceleration = series_of(it.acceleration, &jet.numbers, &jet.registers, &mut room);
+            let towards = L::Plain::splat(it.towards);
+            for (k, own) in guard.iter_mut().enumerate() {
+                let falls = L::splat(if k == 1 { -1.0 } else { 0.0 });
+                let pressing = L::select(loose, falls, acceleration[k].scaled(towards));
+                *own = L::select(holds, pressing, *own);
+            }
         }
 
         /// Writes the guard of a friction: what it is of while it slides, else what it holds on a side.
@@ -73,6 +93,8 @@ in_lanes! {
 
         const GUARDS: usize = if AUTONOMOUS { MAX_GUARDS - 1 } else { MAX_GUARDS };
         const AUTONOMOUS: bool = AUTONOMOUS;
+        // A contact that lasts opens with the third derivative of the distance.
+        const MOST_ZEROS: usize = 3;
 
         fn period(&self) -> L {
             self.numbers[self.program.period]
@@ -127,6 +149,14 @@ in_lanes! {
                     let own = registers[leading][k + 1];
                     let rests = !slides(mode, place);
                     registers[leading][k + 1] = L::select(rests, -(others / numbers[factor]), own);
+                }
+                for (place, it) in program.lasting.iter().enumerate() {
+                    let Some(it) = it else { continue };
+                    let holds = is_on(mode.contacts[place]);
+                    for held in [it.state, it.velocity] {
+                        let own = registers[held][k + 1];
+                        registers[held][k + 1] = L::select(holds, L::splat(0.0), own);
+                    }
                 }
                 for place in 0..program.rates.len() {
                     row[place] = registers[place][k + 1];
@@ -184,7 +214,10 @@ in_lanes! {
                 return;
             };
             match *which {
-                Guard::Event(event) => self.write(self.program.lasts[event], jet, guard),
+                Guard::Event(event) => {
+                    self.write(self.program.lasts[event], jet, guard);
+                    self.write_pressing(event, mode, jet, guard);
+                }
                 Guard::Switch(switch) => {
                     self.write(self.program.sides[switch], jet, guard);
                     let on = L::Plain::splat(0.5).lt(mode.switches[switch]);
@@ -226,7 +259,8 @@ in_lanes! {
             zeros: &mut Zeros<L>,
             time: L,
         ) -> L {
-            self.obey(Due { which, here: due, mode, state, zeros, time })
+            let (opens, came) = (L::Mask::splat(false), L::splat(0.0));
+            self.obey(Due { which, here: due, mode, state, zeros, time, opens, came })
         }
 
         fn lost(&self, state: &[L; N]) -> L::Mask {

@@ -6,6 +6,8 @@ use capsulemap_engine::flow::{Metric, System};
 use capsulemap_engine::lane::Lane;
 
 use crate::text::content::Section;
+use crate::text::instructions::Place;
+use crate::text::interpreter::at;
 use crate::text::mode::{TextEvent, TextMode};
 use crate::text::oscillator::Oscillator;
 use crate::text::program::Program;
@@ -139,6 +141,14 @@ impl<const D: usize, const N: usize, const AUTONOMOUS: bool> System<D>
 }
 
 impl<const D: usize, const N: usize, const AUTONOMOUS: bool> TextSystem<D, N, AUTONOMOUS> {
+    /// Whether a state is behind the bound of an event, so that no motion starts there.
+    pub fn is_behind(&self, time: f64, state: [f64; N]) -> bool {
+        let single = self.single();
+        let values = single.values(&TextMode::default(), time, &state);
+        let value = |place: &Place| at(*place, &values.numbers, &values.registers);
+        self.program.lasts.iter().any(|it| value(it) < 0.0)
+    }
+
     /// The period of the section, or the longest time that is waited for it.
     fn period(&self) -> f64 {
         capsulemap_engine::flow::Switched::period(&self.single())

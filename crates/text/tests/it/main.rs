@@ -10,6 +10,7 @@ mod differences;
 mod draws;
 mod events;
 mod faults;
+mod lasting;
 mod more;
 mod outputs;
 mod random_texts;

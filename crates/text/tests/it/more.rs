@@ -3,7 +3,7 @@
 use capsulemap_engine::attractor::attractors_of;
 use capsulemap_engine::orbit::{Case, Machine, Outcome, Proof, Protocol, settle, settle_all};
 
-use super::six::{D3, characters, program};
+use super::six::{A3, D3, characters, program};
 
 /// The driven oscillator of a text.
 fn driven(name: &str) -> D3 {
@@ -51,4 +51,30 @@ fn a_gear_that_is_turned_round_moves_turned_round() {
         periodic += usize::from(one.outcome == Outcome::Periodic);
     }
     assert!(periodic > 0);
+}
+
+/// Published of the block on the belt: where it turns back, and how long a cycle lasts.
+#[test]
+fn the_block_on_the_belt_has_the_published_cycle() {
+    let block = A3::new(program(&characters("block.toml")));
+    let case = Case::new(block, [1.5, 0.0, 0.0, 0.0, 0.0]);
+    let orbit = settle(&case, &Protocol::default());
+    assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+    assert!((orbit.section[0][0] - 1.133_944_676_442).abs() < 1e-11, "{}", orbit.section[0][0]);
+    assert!((orbit.duration - 12.001_031_294_834).abs() < 1e-10, "{}", orbit.duration);
+}
+
+/// Without damping and at half the natural frequency the oscillator with friction has a family of orbits (Csernak and Stepan 2006).
+#[test]
+fn orbits_with_friction_at_half_the_natural_frequency_are_a_family() {
+    let friction = driven("friction.toml").with_named("w", 0.5);
+    let mut sections = Vec::new();
+    for x in [1.2, 1.4] {
+        let case = Case::new(friction.clone(), [x, 0.0, 0.0, 0.0, 0.0]);
+        let orbit = settle(&case, &Protocol::default());
+        assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+        assert!(orbit.certificate.neutral.is_some(), "{:?}", orbit.certificate);
+        sections.push(orbit.section[0]);
+    }
+    assert!((sections[0][0] - sections[1][0]).abs() > 1e-3, "{sections:?}");
 }

@@ -47,7 +47,7 @@ fn a_text_is_one_model_however_it_is_laid_out() {
     assert!(std::ptr::eq(one, other));
     let changed = model(&text.replace("x^3", "x^5")).expect("a model");
     assert!(!std::ptr::eq(one, changed));
-    let tables = one.made_of.expect("it is a text").tables;
+    let tables = one.equations.expect("it is a text").tables;
     assert!(std::ptr::eq(one, model(tables).expect("the tables say the same")));
 }
 
@@ -59,9 +59,9 @@ fn every_text_of_the_repository_is_a_model_without_faults() {
         let path = entry.expect("a file").path();
         if path.extension().is_some_and(|it| it == "toml") {
             let text = std::fs::read_to_string(&path).expect("a text");
-            let made =
+            let described =
                 model(&text).unwrap_or_else(|faults| panic!("{}: {faults:?}", path.display()));
-            assert_eq!(model_of(&Parameters::of(made)).faults(), Vec::<String>::new());
+            assert_eq!(model_of(&Parameters::of(described)).faults(), Vec::<String>::new());
             count += 1;
         }
     }
