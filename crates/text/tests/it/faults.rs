@@ -53,7 +53,7 @@ rest = { v = \"-v\" }
         "line 14, column 38: there is no function \"sine\"; did you mean \"sin\"? (allowed: sqrt, exp, log, sin, cos, tanh, abs, max, min)",
         "line 15, column 1: there is no state \"z\" (allowed: x, v)",
         "line 23, column 15: expected < or > between two expressions",
-        "line 24, column 1: [[system.events]] has no key \"rest\"; did you mean \"reset\"? (allowed: name, while, reset)",
+        "line 24, column 1: [[system.events]] has no key \"rest\"; did you mean \"reset\"? (allowed: name, while, reset, lasting)",
     ];
     assert_eq!(told, expected, "{}", told.join("\n"));
 }

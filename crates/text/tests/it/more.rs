@@ -32,7 +32,8 @@ fn five_attractors_of_duffing_have_the_shares_of_the_compiled_oscillator() {
     assert_eq!(table.order.iter().map(period).collect::<Vec<_>>(), [1, 1, 2, 2, 3]);
     let mut counts = [0; 5];
     table.of_case.iter().flatten().for_each(|it| counts[*it as usize] += 1);
-    assert_eq!(counts, OF_EXAMPLE);
+    let in_order: Vec<usize> = table.order.iter().map(|place| counts[*place]).collect();
+    assert_eq!(in_order, OF_EXAMPLE);
 }
 
 #[test]
@@ -62,19 +63,4 @@ fn the_block_on_the_belt_has_the_published_cycle() {
     assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
     assert!((orbit.section[0][0] - 1.133_944_676_442).abs() < 1e-11, "{}", orbit.section[0][0]);
     assert!((orbit.duration - 12.001_031_294_834).abs() < 1e-10, "{}", orbit.duration);
-}
-
-/// Without damping and at half the natural frequency the oscillator with friction has a family of orbits (Csernak and Stepan 2006).
-#[test]
-fn orbits_with_friction_at_half_the_natural_frequency_are_a_family() {
-    let friction = driven("friction.toml").with_named("w", 0.5);
-    let mut sections = Vec::new();
-    for x in [1.2, 1.4] {
-        let case = Case::new(friction.clone(), [x, 0.0, 0.0, 0.0, 0.0]);
-        let orbit = settle(&case, &Protocol::default());
-        assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
-        assert!(orbit.certificate.neutral.is_some(), "{:?}", orbit.certificate);
-        sections.push(orbit.section[0]);
-    }
-    assert!((sections[0][0] - sections[1][0]).abs() > 1e-3, "{sections:?}");
 }

@@ -71,7 +71,7 @@ fn every_text_of_the_repository_is_a_model_without_faults() {
 #[test]
 fn a_model_has_no_coordinates_beside_those_of_its_text() {
     let belt = described("belt.toml");
-    let (orbit, _) = settled(belt, &[], &[("x", 1.0)]);
+    let (orbit, _) = settled(belt, &[], &[("x", 2.0)]);
     assert_eq!(orbit.outcome, Outcome::Periodic);
     assert_eq!((orbit.section[0].len(), orbit.certificate.multipliers.len()), (1, 1));
     assert!(!belt.has_drive() && belt.drive_frequency().is_none());
@@ -136,7 +136,7 @@ fn work_and_loss_balance_and_a_linear_oscillator_has_its_closed_form() {
 #[test]
 fn a_ball_bounces_once_a_period_as_its_closed_form_has_it() {
     let ball = described("ball.toml");
-    let (a, omega, r, g) = (1.0e-3, 115.0, 0.8, 9.81);
+    let (a, omega, r, g) = (1.0e-3, 88.0, 0.8, 9.81);
     let period = 2.0 * PI / omega;
     // It leaves the table with half of what gravity takes in a period, at a phase at which impacts restore that.
     let leaves = 0.5 * g * period;
@@ -149,7 +149,7 @@ fn a_ball_bounces_once_a_period_as_its_closed_form_has_it() {
     });
     let mut met = 0;
     for [h, v] in sections {
-        let (orbit, _) = settled(ball, &[], &[("h", h + 1e-5), ("v", v)]);
+        let (orbit, _) = settled(ball, &[("omega", omega)], &[("h", h + 1e-5), ("v", v)]);
         if orbit.outcome == Outcome::Periodic && orbit.period == 1 {
             let found = sections.iter().find(|it| near(&orbit.section[0], it));
             assert!(found.is_some(), "{:?} {sections:?}", orbit.section[0]);
