@@ -5,6 +5,8 @@ use crate::text::linear::Linear;
 
 /// The most states of a system.
 pub const MOST_STATES: usize = 8;
+/// The most coordinates of a point of a section.
+pub const MOST_ON_SECTION: usize = 6;
 /// The most switches, frictions and events of a system, each.
 pub const MOST_OF_A_KIND: usize = 8;
 /// The most pulses of a system.

@@ -7,7 +7,7 @@ use capsulemap_models::description::{Description, Equations};
 use capsulemap_models::model::Model;
 use capsulemap_models::of::{Of, make_known};
 
-use crate::text::content::{Section, Text};
+use crate::text::content::{MOST_ON_SECTION, Section, Text};
 use crate::text::described::description;
 use crate::text::fault::Fault;
 use crate::text::program::Program;
@@ -18,7 +18,7 @@ use crate::text::tables::system_alone;
 /// Coordinates for which a point of the section of a small system has room.
 const FEW: usize = 3;
 /// The same of others.
-const MANY: usize = 8;
+const MANY: usize = MOST_ON_SECTION;
 
 /// The models that were made, by what differs between texts that differ.
 static KNOWN: Mutex<BTreeMap<String, &'static Description>> = Mutex::new(BTreeMap::new());
@@ -60,8 +60,8 @@ fn of_text(text: Text, tables: String) -> (&'static dyn Model, &'static Descript
     let model: &'static dyn Model = match (is_driven, room) {
         (true, FEW) => Box::leak(Box::new(Of::<Driven<FEW, 5>, FEW>::described(description))),
         (false, FEW) => Box::leak(Box::new(Of::<Autonomous<FEW, 5>, FEW>::described(description))),
-        (true, _) => Box::leak(Box::new(Of::<Driven<MANY, 10>, MANY>::described(description))),
-        (false, _) => Box::leak(Box::new(Of::<Autonomous<MANY, 10>, MANY>::described(description))),
+        (true, _) => Box::leak(Box::new(Of::<Driven<MANY, 8>, MANY>::described(description))),
+        (false, _) => Box::leak(Box::new(Of::<Autonomous<MANY, 8>, MANY>::described(description))),
     };
     (model, description)
 }

@@ -2,7 +2,9 @@
 
 use toml::de::DeTable;
 
-use crate::text::content::{Event, Friction, Parameter, Pulse, Section, State, Switch, Text};
+use crate::text::content::{
+    Event, Friction, MOST_ON_SECTION, Parameter, Pulse, Section, State, Switch, Text,
+};
 use crate::text::dependence::check_dependence;
 use crate::text::entries::Parsed;
 use crate::text::event_names::event_symbols;
@@ -86,6 +88,7 @@ fn of_table<'a>(source: &Source<'a>, table: &DeTable<'a>) -> Option<Text> {
     let text = Text { measured, outputs: outputs?, ..text };
     check_counts(source, &text, &counts);
     check_guards(source, &text, place_of(table));
+    check_coordinates(source, &text, place_of(table));
     check_lasting(source, &text, place_of(table));
     check_dependence(source, &text, table);
     Some(text.with_moved())
@@ -246,6 +249,17 @@ fn check_lasting(source: &Source<'_>, text: &Text, at: usize) {
                 format!("{event} cannot last: the friction {friction} is of what it holds"),
             );
         }
+    }
+}
+
+/// Notes that a point of the section has too many coordinates.
+fn check_coordinates(source: &Source<'_>, text: &Text, at: usize) {
+    let count = text.on_section().count();
+    if !(1..=MOST_ON_SECTION).contains(&count) {
+        let message = format!(
+            "a point of the section has {count} coordinates, the states but for one that drifts and one that is zero on it; it may have 1 to {MOST_ON_SECTION}"
+        );
+        source.fault(at, message);
     }
 }
 

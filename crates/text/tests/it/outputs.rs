@@ -184,6 +184,54 @@ fn faults_of_outputs_are_told_in_their_place() {
     assert!(faults[0].message.contains("peak is an output"), "{faults:?}");
 }
 
+/// Two masses in a row between springs, each with a little damping, the first driven.
+const ROW: &str = r#"
+[system]
+name = "two masses in a row"
+states = { x1 = "1", v1 = "1", x2 = "1", v2 = "1" }
+section = { every = "2*pi/w" }
+[system.parameters]
+w = 1.3
+c = 0.1
+wall = 5.0
+[system.rates]
+x1 = "v1"
+v1 = "cos(w*t) - 2*x1 + x2 - c*v1"
+x2 = "v2"
+v2 = "x1 - 2*x2 - c*v2"
+[[system.events]]
+name = "impact"
+while = "x2 < wall"
+reset = { x2 = "wall", v2 = "-0.8*v2" }
+[system.outputs]
+together = "max(x1 + x2)"
+apart = "max(x1 - x2)"
+"#;
+
+#[test]
+fn a_section_of_four_coordinates_has_the_closed_form_of_its_modes() {
+    let row = model(ROW).expect("a model");
+    let (orbit, _) = settled(row, &[], &[("x1", 0.1)]);
+    assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+    assert_eq!((orbit.section[0].len(), orbit.certificate.multipliers.len()), (4, 4));
+    // The sum and the difference of the displacements are oscillators of the stiffness 1 and 3.
+    for (name, stiffness) in [("together", 1.0), ("apart", 3.0)] {
+        let (w, c): (f64, f64) = (1.3, 0.1);
+        let amplitude = 1.0 / (stiffness - w * w).hypot(c * w);
+        assert!((output(&orbit, name) - amplitude).abs() < 1e-10, "{name} {amplitude}");
+    }
+    let decay = (-0.05 * 2.0 * PI / 1.3_f64).exp();
+    assert!(orbit.certificate.multipliers.iter().all(|it| (it.abs() - decay).abs() < 1e-10));
+    let (orbit, _) = settled(row, &[("wall", 0.5)], &[("x1", 0.1)]);
+    assert!(output(&orbit, "impact_per_cycle") > 0.0);
+    let many = ["x3", "x4", "x5"].map(|it| format!(", {it} = \"1\""));
+    let states = ROW.replace(", x2 = \"1\"", &format!(", x2 = \"1\"{}", many.concat()));
+    let rates = ["x3", "x4", "x5"].map(|it| format!("{it} = \"-{it}\"\n"));
+    let text = states.replace("[[system.events]]", &format!("{}[[system.events]]", rates.concat()));
+    let faults = model(&text).expect_err("seven coordinates");
+    assert!(faults[0].message.contains("1 to 6"), "{faults:?}");
+}
+
 /// What is measured does not touch the motion: the same bits with outputs and without.
 #[test]
 fn outputs_do_not_change_the_motion() {
