@@ -134,7 +134,7 @@ fn faults_of_a_system_are_told_with_file_and_line() {
     work.put("impact.toml", system("impact.toml") + outputs);
     work.put("wall.toml", WALL);
     for file in ["wall.toml", "impact.toml"] {
-        let parts = ["2 faults", "two things called `attractor_kind`", "called `period`"];
+        let parts = ["6 faults", "two things called `attractor_kind`", "called `period`"];
         work.run(&["check", file]).refused(&parts);
     }
 }
