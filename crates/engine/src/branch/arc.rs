@@ -67,6 +67,14 @@ impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
         self.at(distance, &moved(&a.1.at, share, &a.1.tangent))
     }
 
+    /// The solution so far beyond the first of two others, and no farther than the second.
+    pub fn onward(&self, [a, b]: [&Placed<U, E::Seen>; 2], by: f64) -> Option<Placed<U, E::Seen>> {
+        if b.0 - a.0 <= by {
+            return Some(b.clone());
+        }
+        self.beyond(a, a.0 + by).or_else(|| self.within([a, b], a.0 + by))
+    }
+
     /// Where `test` changes its sign between two solutions, to rounding, with the distance of the last two
     /// trials.
     ///

@@ -3,7 +3,7 @@
 use crate::flow::{Event, Reason, Switched, System};
 use crate::lane::Dual;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
-use crate::orbit::passage::{Integrator, ReturnRequest};
+use crate::orbit::passage::{Integrator, Passage, PlainRequest, ReturnRequest};
 use crate::orbit::return_map::Cycles;
 
 use super::SpecialKind;
@@ -40,6 +40,9 @@ const SMALLEST: f64 = 1e-4;
 /// An autonomous orbit with a cycle that takes more than this share of the time for which a return is waited for comes back
 /// too late a little farther on.
 const LONGEST: f64 = 0.999;
+/// An event so near to the section [cycles] may be met on one side of it by the orbit's point and on the other by its return, which
+/// differ by rounding, as where a capsule at rest has a velocity of 1e-20.
+const AT_SECTION: f64 = 1e-4;
 /// Pairs of two of six coordinates.
 const MOST_PAIRS: usize = 15;
 
@@ -106,6 +109,24 @@ impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
             Some(std::array::from_fn(|i| at[i] + step.get(i).unwrap_or(&0.0)))
         });
         points.take(self.family.period as usize).collect()
+    }
+
+    /// The cyclic sequence of events of an orbit with this passage.
+    ///
+    /// Method: where an event lies at the section, that of the motion from the return on, whose mode is the one in which the orbit
+    /// came there.
+    fn events(&self, at: &[f64; U], passage: &Passage<M::Event, D>) -> Vec<M::Event> {
+        let events = cyclic(&passage.events);
+        if passage.nearest_event >= AT_SECTION {
+            return events;
+        }
+        let Family { system, period, tolerance } = &self.family;
+        let again = self.integrator.plain_returns(PlainRequest {
+            system: system.with(self.along, self.parameter(at)),
+            points: vec![passage.end],
+            cycles: Cycles { count: *period, tolerance: *tolerance },
+        });
+        again.into_iter().flatten().next().map_or(events, |it| cyclic(&it.events))
     }
 
     /// Whether a cycle of an autonomous orbit takes nearly as long as it may, or to rounding too long.
@@ -175,8 +196,9 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<'_, M
             Dual { value: margin.value / unit, gradient }
         });
         let excursion = passage.excursion / system.metric().size(&self.section(&[1.0; U]));
+        let events = self.events(at, &passage);
         let margins = passage.margins.into_iter().map(|(time, it)| (time, it / unit)).collect();
-        let seen = Seen { jacobian, events: cyclic(&passage.events), margin, margins, excursion };
+        let seen = Seen { jacobian, events, margin, margins, excursion };
         Ok(Linear { residual, rows, seen })
     }
 

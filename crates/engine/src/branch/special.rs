@@ -10,6 +10,8 @@ use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 
 /// Changes of the event sequence between two neighbouring orbits at most.
 pub(super) const CHANGES: usize = 16;
+/// Changes of the event sequence that are no farther apart are one.
+const ONE_PLACE: f64 = 1e-10;
 /// A pair of multipliers is so near to the unit circle where it is found to pass it.
 const NEAR: f64 = 1e-5;
 /// A located orbit is known along the arc to this share of it: the rounding of a test function.
@@ -107,7 +109,8 @@ pub(super) struct Change<E, const D: usize, const U: usize> {
 }
 
 impl<E: Event, const D: usize, const U: usize> Change<E, D, U> {
-    /// The first between two orbits, to the share `narrow` of their distance.
+    /// The first between two orbits, to the share `narrow` of their distance, with all that changes at its place: of a symmetric motion
+    /// two events change at once, which rounding may tell apart.
     pub(super) fn first<M: System<D, Event = E>>(
         arc: &Arc<'_, U, Orbits<'_, M, D, U>>,
         ends: [&OnArc<E, D, U>; 2],
@@ -115,6 +118,10 @@ impl<E: Event, const D: usize, const U: usize> Change<E, D, U> {
     ) -> Self {
         let events = &ends[0].1.seen.events;
         let [before, after] = arc.change(ends, |point| point.seen.events == *events, narrow);
+        if after.1.seen.events == ends[1].1.seen.events {
+            return Change { before, after };
+        }
+        let after = arc.onward([&before, ends[1]], ONE_PLACE).unwrap_or(after);
         Change { before, after }
     }
 

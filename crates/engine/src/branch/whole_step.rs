@@ -31,9 +31,6 @@ pub const JUMP: f64 = 1e-5;
 const ON_CIRCLE: f64 = 1e-10;
 /// An orbit that is no farther from one of half its period has a multiplier that cannot be told from one.
 const BESIDE: f64 = 1e-3;
-/// Changes of the event sequence that are no farther apart are one.
-const ONE_PLACE: f64 = 1e-10;
-
 /// Why a step has to be halved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flaw {
@@ -52,7 +49,8 @@ pub enum Flaw {
 /// a cut must not jump, and where nothing special is found as many multipliers must lie beyond the unit circle at both ends.
 /// Breaks: where within a smooth part a test function turns twice or an event sequence changes and changes back, and the
 /// orbit in the middle shows neither. A fold so near to a period doubling that rounding
-/// decides the sign of the tangent is not told from it.
+/// decides the sign of the tangent is not told from it. Where a motion jumps elsewhere than at the section, as where a slip appears
+/// with a length of its own by static friction above kinetic, the events change; with a section in that slip the branch ends.
 pub fn special_orbits_of_whole<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
     from: &OrbitPoint<M::Event, D, U>,
@@ -185,13 +183,7 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
                 return Err(Flaw::Unclear);
             }
             found.extend(self.smooth([&last, &change.before]).ok_or(Flaw::Unclear)?);
-            let special = change.special(self.orbits, &self.arc, self.range());
-            match found.last_mut().filter(|_| change.before.0 - last.0 <= ONE_PLACE) {
-                // Of a symmetric motion two events change at once, which rounding may tell apart.
-                Some(known) if known.kind == SpecialKind::EventSequence => *known = special,
-                Some(_) if special.kind == SpecialKind::EventSequence => {}
-                _ => found.push(special),
-            }
+            found.push(change.special(self.orbits, &self.arc, self.range()));
             last = change.after;
         }
         found.extend(self.smooth([&last, to]).ok_or(Flaw::Unclear)?);

@@ -38,6 +38,8 @@ pub struct Passage<E, const D: usize> {
     pub by_parameter: [f64; D],
     /// The events in order, where they are asked for.
     pub events: Vec<E>,
+    /// How near to the section, before or after it, one of them comes [cycles]; infinite where none does.
+    pub nearest_event: f64,
     /// How far the local extremum that is nearest to the surface that it may touch is below it.
     pub margin: Option<Margin<D>>,
     /// Each local extremum: when it is met after the section [cycles], and how far it is below the surface.
@@ -143,8 +145,9 @@ fn plain_return<M: System<D>, const D: usize>(
     cycles: &Cycles,
 ) -> Option<PlainReturn<M::Event, D>> {
     let mut events = Vec::new();
-    let end =
-        returned(system, point, cycles, |step| events.extend(M::Event::from_code(step.event)));
+    let end = returned(system, point, cycles, |step| {
+        events.extend(M::Event::from_code(step.event).filter(|it| !it.is_timed()));
+    });
     Some(PlainReturn { end: end.ok()?, events })
 }
 
@@ -153,6 +156,8 @@ fn plain_return<M: System<D>, const D: usize>(
 pub struct Passing<L, E> {
     /// The events so far.
     pub events: Vec<E>,
+    /// When the first and the last of them came [cycles].
+    first_and_last: Option<[f64; 2]>,
     /// The local extrema of the coordinate that may touch a surface, in order.
     pub extrema: Vec<Extremum<L>>,
     turns: Turns<L>,
@@ -165,14 +170,18 @@ pub struct Passing<L, E> {
 impl<L: Lane, E: Event> Passing<L, E> {
     /// Nothing passed yet, in cycles of this duration [s].
     pub fn new(period: f64) -> Self {
-        let (events, extrema) = (Vec::new(), Vec::new());
-        Passing { events, extrema, turns: Turns::default(), elapsed: 0.0, period }
+        let (events, extrema, turns) = (Vec::new(), Vec::new(), Turns::default());
+        Passing { events, first_and_last: None, extrema, turns, elapsed: 0.0, period }
     }
 
     /// Takes note of a step of this length [s] with the event at its end.
     pub fn see(&mut self, (length, event): (f64, Option<E>)) {
-        self.events.extend(event.filter(|it| !it.is_timed()));
         self.elapsed += length;
+        if let Some(event) = event.filter(|it| !it.is_timed()) {
+            self.events.push(event);
+            let now = self.elapsed / self.period;
+            self.first_and_last = Some([self.first_and_last.map_or(now, |[first, _]| first), now]);
+        }
     }
 
     /// Takes note of how the coordinate that may touch a surface turns during a step in a lane, before the step is seen;
@@ -282,6 +291,9 @@ pub(super) fn told<E, const D: usize, const U: usize>(
         jacobian: end.map(|it| std::array::from_fn(|i| it.gradient[i])),
         by_parameter: end.map(|it| it.gradient[D]),
         events: passing.events,
+        nearest_event: passing.first_and_last.map_or(f64::INFINITY, |[first, last]| {
+            first.min(passing.elapsed / passing.period - last)
+        }),
         margin,
         margins: passing.extrema.iter().map(|it| (it.time, it.margin.value)).collect(),
         excursion,

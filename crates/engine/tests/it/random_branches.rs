@@ -147,12 +147,21 @@ fn numbered_member(number: usize) -> (usize, Parameters, Parameter, [f64; 2]) {
 /// slips and the section. How many impacts on a rigid stop accumulate before the mass stays there follows from a limit, and so do
 /// the places where their number changes: such members have no part in it.
 ///
-/// Of members more branches differ than of the paper's capsule, as an edge lets an event come and go again within a step more often: with
-/// both orbits at the ends of the step, and that in its middle, alike, such a pair of special points is passed over.
+/// Some branches differ, for these reasons: where static friction is above kinetic a slip may appear with a length of its own, and a
+/// branch whose section lies in it ends there; a kink is not passed with every step; of several extrema near a stop another one is taken
+/// for the one that touches.
 #[test]
 fn random_branches_of_members_are_the_same_by_any_settings() {
     let drawn = (0..).map(numbered_member).filter(|(_, it, ..)| !it.shape().is_rigid());
-    assert_independent(periodic(drawn, 2 * capsules()), 1.0 / 20.0);
+    assert_independent(periodic(drawn, 2 * capsules()), 1.0 / 40.0);
+}
+
+/// Members whose capsule rests at the section, or whose slips begin and end there: where rounding moves the section point off the rest,
+/// as by a velocity of 1e-20, there is no special point.
+#[test]
+fn branches_of_members_at_rest_at_the_section_have_no_more_special_points() {
+    let numbers = [138, 142, 210, 280, 295, 345, 350];
+    assert_independent(periodic(numbers.into_iter().map(numbered_member), numbers.len()), 0.0);
 }
 
 /// What is on each branch is the same by other steps, phases of the section, points of the orbit and ends of the range,
