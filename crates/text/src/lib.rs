@@ -27,4 +27,6 @@
 
 pub mod text;
 
-pub use text::{Fault, Text, derived, described, mode, model, program, read, read_in, system};
+pub use text::{
+    Fault, Text, derived, described, mode, model, program, read, read_in, system, unit,
+};

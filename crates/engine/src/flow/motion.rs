@@ -272,16 +272,21 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         }
     }
 
-    /// Notes the sign by which the function of the section falls through zero next.
+    /// Notes the sign by which the function of the section falls through zero next, and says whether it may.
     ///
     /// An event that moves the state may take it across the section, which is no return to it: a value that is below
-    /// zero by more than rounding, of the size of what the function changes by in a step, tells so.
+    /// zero by more than rounding, of the size of what the function changes by in a step, tells so. While a motion rests on the
+    /// section the function is zero throughout: then it does not fall, and its sign is known when it leaves.
     #[inline(always)]
-    fn turn_to_section(&mut self, section: &Series<L>, length: L::Plain) {
+    fn turn_to_section(&mut self, section: &Series<L>, length: L::Plain) -> L::Mask {
+        let zero = L::splat(0.0);
+        let next = series::sign_after_start(section, zero);
+        self.side = L::select(zero.lt(self.side * self.side), self.side, next);
         let [value, slope, bend] = [0, 1, 2].map(|k| (self.side * section[k]).plain());
         let change = (slope * length).abs().max((bend * length * length).abs());
         let is_across = value.lt(-(change * L::Plain::splat(ACROSS)));
         self.side = L::select(is_across, -self.side, self.side);
+        zero.lt(next * next)
     }
 
     /// Writes the guards without their derivatives, with their known zeros divided out; where each of them might fall within
@@ -296,8 +301,8 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let mut open = [L::Mask::splat(false); MAX_GUARDS];
         for (which, open) in open.iter_mut().enumerate().take(Step::<L, S>::GUARDS) {
             let is_section = S::AUTONOMOUS && which == S::GUARDS;
-            let watched = match is_section {
-                true => L::splat(0.0).lt(self.side * self.side),
+            let mut watched = match is_section {
+                true => L::Mask::splat(true),
                 false => system.watched(which, &self.mode),
             };
             if !watched.any() {
@@ -309,7 +314,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             let (guard, plain) = (&mut guards[place], &mut plain_guards[which]);
             let guard = if is_section {
                 system.section(jet, guard);
-                self.turn_to_section(guard, length);
+                watched = self.turn_to_section(guard, length);
                 guard.iter_mut().for_each(|term| *term = self.side * *term);
                 L::plain_series(guard, plain)
             } else if const { L::PARTS > 1 } {

@@ -1,5 +1,6 @@
 //! An oscillator as its text says it: states, rates, and what makes it switch, as values of one graph.
 
+use crate::text::fault::Fault;
 use crate::text::graph::{Graph, Id, Node};
 use crate::text::linear::Linear;
 
@@ -41,6 +42,8 @@ pub struct Text {
     pub measured: Vec<Measured>,
     /// Its outputs.
     pub outputs: Vec<TextOutput>,
+    /// Where its units do not fit each other.
+    pub misfits: Vec<Fault>,
 }
 
 /// What is measured of a motion that has settled.

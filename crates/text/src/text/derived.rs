@@ -19,7 +19,7 @@ pub fn derived(model: &'static Description) -> Vec<(&'static str, String)> {
     let text = &program.text;
     let outputs: Vec<&str> = model.outputs.iter().map(|it| it.quantity.name).collect();
     let events: Vec<String> = program.events.iter().map(|it| event_name(text, *it)).collect();
-    vec![
+    let mut all = vec![
         ("states", with_units(text.states.iter().map(|it| (&it.name, Some(&it.unit))))),
         ("defaults", parameters(text)),
         ("section", section(text)),
@@ -28,7 +28,12 @@ pub fn derived(model: &'static Description) -> Vec<(&'static str, String)> {
         ("events", if events.is_empty() { "none".into() } else { events.join(", ") }),
         ("can give", outputs.join(", ")),
         ("cost", cost(program)),
-    ]
+    ];
+    if text.misfits.is_empty() {
+        all.push(("units", "fit each other, as far as they are given".into()));
+    }
+    all.extend(text.misfits.iter().map(|it| ("units", it.to_string())));
+    all
 }
 
 /// Names with their units, where they have some.

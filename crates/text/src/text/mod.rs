@@ -13,6 +13,7 @@ mod exact;
 mod face;
 pub mod expression;
 pub mod fault;
+mod fitting;
 pub mod function;
 pub mod graph;
 pub mod instructions;
@@ -33,6 +34,7 @@ mod switched;
 mod symbol;
 mod tables;
 pub mod system;
+pub mod unit;
 mod values;
 mod written;
 

@@ -9,6 +9,7 @@ use crate::text::dependence::check_dependence;
 use crate::text::entries::Parsed;
 use crate::text::event_names::event_symbols;
 use crate::text::fault::Fault;
+use crate::text::fitting::misfits;
 use crate::text::graph::{Graph, Id, Node};
 use crate::text::linear::{Linear, TakenApart, linear};
 use crate::text::names::Names;
@@ -86,6 +87,8 @@ fn of_table<'a>(source: &Source<'a>, table: &DeTable<'a>) -> Option<Text> {
     let graph = std::mem::take(&mut values.graph);
     let text = found?.text(source, &parsed, graph, name?.characters)?;
     let text = Text { measured, outputs: outputs?, ..text };
+    let misfits = misfits(source, table, &text);
+    let text = Text { misfits, ..text };
     check_counts(source, &text, &counts);
     check_guards(source, &text, place_of(table));
     check_coordinates(source, &text, place_of(table));
@@ -192,6 +195,7 @@ impl Found {
             drift,
             measured: Vec::new(),
             outputs: Vec::new(),
+            misfits: Vec::new(),
         })
     }
 }

@@ -44,6 +44,11 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// What is told of a byte of the text without being wrong.
+    pub fn remark(&self, at: usize, message: impl Into<String>) -> Fault {
+        Fault::at(self.text, at, message)
+    }
+
     /// Notes what keeps characters from being an expression.
     pub fn misread(&self, it: Misread) {
         self.fault(it.at, it.message);

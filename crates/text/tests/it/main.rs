@@ -15,3 +15,4 @@ mod more;
 mod outputs;
 mod random_texts;
 mod six;
+mod units;

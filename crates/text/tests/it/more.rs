@@ -64,3 +64,79 @@ fn the_block_on_the_belt_has_the_published_cycle() {
     assert!((orbit.section[0][0] - 1.133_944_676_442).abs() < 1e-11, "{}", orbit.section[0][0]);
     assert!((orbit.duration - 12.001_031_294_834).abs() < 1e-10, "{}", orbit.duration);
 }
+
+/// Published of the drift oscillator (a = 0.3, b = 0.1, xi = 0.01, w = 0.1, gap 0.02): its motion repeats after two cycles, and the
+/// multiplier of these that is not zero.
+#[test]
+fn the_drift_oscillator_has_the_published_multiplier() {
+    let drift = driven("drift.toml");
+    let orbit = settle(&Case::new(drift.clone(), [0.0; 5]), &Protocol::default());
+    assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 2));
+    assert_eq!(orbit.certificate.proof, Proof::Newton);
+    let [largest, second, third] = orbit.certificate.multipliers[..] else { panic!("three") };
+    assert!((largest.re + 0.60722).abs() < 5e-6 && largest.im == 0.0, "{largest:?}");
+    // While the mass presses on the slider their places are one, so that two of three perturbations are forgotten.
+    assert!(second.abs() < 1e-12 && third.abs() < 1e-12);
+    // What a contact may press at most is a number that nothing depends on.
+    let of_more = Case::new(drift.with_named("most", 1000.0), [0.0; 5]);
+    let other = settle(&of_more, &Protocol::default());
+    assert!((other.section[0][0] - orbit.section[0][0]).abs() < 1e-9);
+}
+
+/// One step of the classical Runge-Kutta method of the valve in flight, with its flow `q`.
+fn valve_step([y1, y2, y3]: [f64; 3], h: f64, q: f64) -> [f64; 3] {
+    let rate = |[y1, y2, y3]: [f64; 3]| {
+        [y2, -1.25 * y2 - (y1 + 10.0) + y3, 20.0 * (q - y1 * libm::sqrt(y3))]
+    };
+    let from = [y1, y2, y3];
+    let ahead = |by: f64, along: [f64; 3]| [0, 1, 2].map(|i| from[i] + by * along[i]);
+    let a = rate(from);
+    let b = rate(ahead(0.5 * h, a));
+    let c = rate(ahead(0.5 * h, b));
+    let d = rate(ahead(h, c));
+    [0, 1, 2].map(|i| from[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]))
+}
+
+/// The last part of a step after which a coordinate of the valve is zero, by Newton's method.
+fn valve_reaches(from: [f64; 3], coordinate: usize, q: f64) -> (f64, [f64; 3]) {
+    let mut h = 0.0;
+    for _ in 0..30 {
+        let here = valve_step(from, h, q);
+        let slope = (valve_step(from, h + 1e-7, q)[coordinate] - here[coordinate]) / 1e-7;
+        h -= here[coordinate] / slope;
+    }
+    (h, valve_step(from, h, q))
+}
+
+/// A valve that does not bounce stays on its seat until the vessel has filled, at a constant rate, to the preload of the spring; from
+/// there its flight is followed by another method.
+#[test]
+fn a_valve_stays_on_its_seat_until_the_vessel_has_filled() {
+    let q = 1.0;
+    let valve = A3::new(program(&characters("seat.toml"))).with_named("r", 0.0);
+    let (step, mut state, mut flown, mut lift) = (1e-4, [0.0, 0.0, 10.0], 0.0, None);
+    let lands = loop {
+        let next = valve_step(state, step, q);
+        if state[1] > 0.0 && next[1] <= 0.0 {
+            lift = Some(valve_reaches(state, 1, q).1);
+        }
+        if flown > 0.5 && next[0] < 0.0 {
+            let (rest, lands) = valve_reaches(state, 0, q);
+            flown += rest;
+            break lands;
+        }
+        (state, flown) = (next, flown + step);
+    };
+    let cycle = flown + (10.0 - lands[2]) / (20.0 * q);
+    for start in [[0.0, 0.0, 5.0], [0.0, 0.0, 10.0], [0.5, 0.0, 12.0]] {
+        let [y1, y2, y3] = start;
+        let case = Case::new(valve.clone(), [y1, y2, y3, 0.0, 0.0]);
+        let orbit = settle(&case, &Protocol::default());
+        assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1), "{start:?}");
+        assert!((orbit.duration - cycle).abs() < 1e-9, "{} {cycle}", orbit.duration);
+        let lift = lift.expect("a largest lift");
+        for (at_section, known) in orbit.section[0].iter().zip(lift) {
+            assert!((at_section - known).abs() < 1e-9, "{:?} {lift:?}", orbit.section);
+        }
+    }
+}
