@@ -4,6 +4,8 @@ use std::fmt::{Display, Write};
 
 use crate::quantity::Dimension;
 
+pub(super) use capsulemap_text::tables::of_string as text;
+
 /// A document that is being written.
 #[derive(Debug, Default)]
 pub(super) struct Document(pub String);
@@ -24,22 +26,6 @@ impl Document {
     pub fn element(&mut self, name: &str) {
         let _ = writeln!(self.0, "\n[[{name}]]");
     }
-}
-
-/// A text in quotes.
-pub(super) fn text(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for character in text.chars() {
-        match character {
-            '"' | '\\' => quoted.extend(['\\', character]),
-            control if control.is_control() => {
-                let _ = write!(quoted, "\\U{:08X}", u32::from(control));
-            }
-            other => quoted.push(other),
-        }
-    }
-    quoted.push('"');
-    quoted
 }
 
 /// A plain number with all its digits.

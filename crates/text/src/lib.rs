@@ -28,5 +28,5 @@
 pub mod text;
 
 pub use text::{
-    Fault, Text, derived, described, mode, model, program, read, read_in, system, unit,
+    Fault, Text, derived, described, mode, model, program, read, read_in, system, tables, unit,
 };

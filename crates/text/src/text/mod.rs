@@ -32,7 +32,7 @@ mod read;
 pub mod sums;
 mod switched;
 mod symbol;
-mod tables;
+pub mod tables;
 pub mod system;
 pub mod unit;
 mod values;

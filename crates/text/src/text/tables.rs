@@ -91,8 +91,8 @@ fn inline(text: &str, value: &Value<'_>) -> String {
     }
 }
 
-/// A string in quotes.
-fn of_string(characters: &str) -> String {
+/// A string in quotes, as TOML has it.
+pub fn of_string(characters: &str) -> String {
     let mut string = String::from("\"");
     for it in characters.chars() {
         match it {

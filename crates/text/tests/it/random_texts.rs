@@ -87,6 +87,8 @@ fn one_of<T: Copy>(random: &mut Random, of: &[T]) -> T {
     of[(random.uniform(0.0, of.len() as f64) as usize).min(of.len() - 1)]
 }
 
+/// What is measured of every other text.
+const OUTPUTS: &str = "[system.outputs]\nmost = \"max(x)\"\nleast = \"min(v*x)\"\nwork = \"integral(v*x^2)\"\nboth = \"most + mean(x)\"\n";
 /// Springs of all functions that a text may have.
 const SPRINGS: [&str; 6] = [
     "-k*x",
@@ -114,10 +116,16 @@ const AT_REST: [&str; 3] = [
 /// Adds what makes the oscillator switch.
 fn add_switching(writing: &mut Writing, random: &mut Random, kinds: u64, laws: &[&str]) {
     if kinds & 1 != 0 {
+        // A wall alone may hold the mass; the force presses on it for a part of the cycle.
+        let (restitution, lasting) = match kinds & 7 == 1 {
+            true => ([0.0, 0.6], "lasting = true\n"),
+            false => ([0.5, 0.9], ""),
+        };
+        let impact = "[[system.events]]\nname = \"impact\"\nwhile = \"x < wall\"\nreset = { x = \"wall\", v = \"-e*v\" }\n";
         writing.add(
             "",
-            &[("wall", [0.45, 0.8]), ("e", [0.5, 0.9])],
-            "[[system.events]]\nname = \"impact\"\nwhile = \"x < wall\"\nreset = { x = \"wall\", v = \"-e*v\" }\n",
+            &[("wall", [0.45, 0.8]), ("e", restitution)],
+            &format!("{impact}{lasting}"),
         );
     }
     if kinds & 2 != 0 {
@@ -157,6 +165,9 @@ pub fn driven(number: u64) -> RandomText {
         );
         writing.add(one_of(&mut random, &SPRINGS), &[("k", [0.5, 2.0])], "");
         add_switching(&mut writing, &mut random, number + 1, &AT_REST);
+        if number.is_multiple_of(2) {
+            writing.add("", &[], OUTPUTS);
+        }
         if number % 3 == 1 {
             writing.add(
                 " + p*on",
@@ -180,6 +191,9 @@ pub fn autonomous(number: u64) -> RandomText {
         writing.add("c*v - 0.5*v*x^2 - b*v^3", &[("c", [0.1, 0.6]), ("b", [0.05, 0.5])], "");
         writing.add(one_of(&mut random, &SPRINGS), &[("k", [0.5, 2.0])], "");
         add_switching(&mut writing, &mut random, number + 1, &AT_REST[2..]);
+        if number.is_multiple_of(2) {
+            writing.add("", &[], OUTPUTS);
+        }
         let third = (number % 2 == 1).then(|| one_of(&mut random, &THIRD));
         if let Some((_, force)) = third {
             writing.add(force, &[("tau", [0.5, 2.0])], "");
