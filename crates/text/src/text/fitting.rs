@@ -13,6 +13,9 @@ use crate::text::written::{Source, Written};
 
 /// The unit in which time is, unless nothing in a text has one.
 const TIME: &str = "s";
+/// Expressions and definitions, each within the next, at most, so that they need no more room than a thread has; of deeper ones
+/// nothing is known.
+const DEEPEST: usize = 300;
 
 /// What is known of the unit of a value.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,6 +46,7 @@ struct Fitting<'s, 'a> {
     /// Definitions, and the sizes of frictions, by name.
     written: HashMap<String, Written>,
     time: Known,
+    depth: usize,
     misfits: Vec<Fault>,
 }
 
@@ -69,7 +73,7 @@ impl<'s, 'a> Fitting<'s, 'a> {
         let written = definitions.chain(frictions).filter_map(|(it, value)| {
             Some((it.name.clone(), source.expression(value?, &it.name)?))
         });
-        Fitting { source, names, written: written.collect(), time, misfits: Vec::new() }
+        Fitting { source, names, written: written.collect(), time, depth: 0, misfits: Vec::new() }
     }
 
     /// Looks at everything that a text says.
@@ -168,6 +172,16 @@ impl<'s, 'a> Fitting<'s, 'a> {
     }
 
     fn of(&mut self, expression: &Expression) -> Known {
+        if self.depth == DEEPEST {
+            return Known::Nothing;
+        }
+        self.depth += 1;
+        let known = self.of_parts(expression);
+        self.depth -= 1;
+        known
+    }
+
+    fn of_parts(&mut self, expression: &Expression) -> Known {
         match &expression.kind {
             Kind::Number(_) => Known::Number,
             Kind::Name(name) => self.named(name),

@@ -176,6 +176,7 @@ impl Graph {
             [Some(a), Some(b)] => self.number(a / b),
             [Some(0.0), _] => self.number(0.0),
             [_, Some(1.0)] => a,
+            [_, Some(-1.0)] => self.neg(a),
             _ if self.level(a) == Level::Motion && self.level(b) != Level::Motion => {
                 let one = self.number(1.0);
                 let inverse = self.div(one, b);
