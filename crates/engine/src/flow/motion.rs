@@ -276,7 +276,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     ///
     /// An event that moves the state may take it across the section, which is no return to it: a value that is below
     /// zero by more than rounding, of the size of what the function changes by in a step, tells so. While a motion rests on the
-    /// section the function is zero throughout: then it does not fall, and its sign is known when it leaves.
+    /// section the function is zero throughout: it does not fall then, and its sign is that by which the motion leaves.
     #[inline(always)]
     fn turn_to_section(&mut self, section: &Series<L>, length: L::Plain) -> L::Mask {
         let zero = L::splat(0.0);
@@ -285,8 +285,13 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let [value, slope, bend] = [0, 1, 2].map(|k| (self.side * section[k]).plain());
         let change = (slope * length).abs().max((bend * length * length).abs());
         let is_across = value.lt(-(change * L::Plain::splat(ACROSS)));
-        self.side = L::select(is_across, -self.side, self.side);
-        zero.lt(next * next)
+        let mut size = zero;
+        for term in section {
+            size = size + term.abs();
+        }
+        let rests = size.le(zero);
+        self.side = L::select(is_across, -self.side, L::select(rests, zero, self.side));
+        !rests
     }
 
     /// Writes the guards without their derivatives, with their known zeros divided out; where each of them might fall within

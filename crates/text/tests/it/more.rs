@@ -129,14 +129,14 @@ fn a_valve_stays_on_its_seat_until_the_vessel_has_filled() {
     };
     let cycle = flown + (10.0 - lands[2]) / (20.0 * q);
     for start in [[0.0, 0.0, 5.0], [0.0, 0.0, 10.0], [0.5, 0.0, 12.0]] {
+        // On the section y2 is zero; it is told behind the others.
         let [y1, y2, y3] = start;
-        let case = Case::new(valve.clone(), [y1, y2, y3, 0.0, 0.0]);
+        let case = Case::new(valve.clone(), [y1, y3, 0.0, y2, 0.0]);
         let orbit = settle(&case, &Protocol::default());
         assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1), "{start:?}");
         assert!((orbit.duration - cycle).abs() < 1e-9, "{} {cycle}", orbit.duration);
         let lift = lift.expect("a largest lift");
-        for (at_section, known) in orbit.section[0].iter().zip(lift) {
-            assert!((at_section - known).abs() < 1e-9, "{:?} {lift:?}", orbit.section);
-        }
+        let [y1, y3, _] = orbit.section[0];
+        assert!((y1 - lift[0]).abs() < 1e-9 && (y3 - lift[2]).abs() < 1e-9, "{y1} {y3} {lift:?}");
     }
 }
