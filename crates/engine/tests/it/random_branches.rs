@@ -160,7 +160,7 @@ fn random_branches_of_members_are_the_same_by_any_settings() {
 /// as by a velocity of 1e-20, there is no special point.
 #[test]
 fn branches_of_members_at_rest_at_the_section_have_no_more_special_points() {
-    let numbers = [138, 142, 210, 280, 295, 345, 350];
+    let numbers = [138, 142, 280, 345];
     assert_independent(periodic(numbers.into_iter().map(numbered_member), numbers.len()), 0.0);
 }
 
