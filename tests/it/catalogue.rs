@@ -28,7 +28,7 @@ const DEFINING: [&str; 8] = [
 ];
 
 /// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
-const OTHERS: [(&str, &[&str], &str); 19] = [
+const OTHERS: [(&str, &[&str], &str); 21] = [
     ("src/study/study_file.rs", &["cycles", "attractor"], "keys of a study"),
     ("src/study/study_text.rs", KEYS, "keys of a study"),
     ("src/study/start_file.rs", &["direction"], "keys of a study"),
@@ -43,6 +43,8 @@ const OTHERS: [(&str, &[&str], &str); 19] = [
         "what the keys of quantities may name, which a test here compares",
     ),
     ("crates/models/src/quantity/units.rs", &["g"], "the gram"),
+    ("crates/text/src/text/unit.rs", &["g"], "the gram"),
+    ("crates/text/src/text/fitting.rs", &["period", "duty"], "keys of a text"),
     ("crates/text/src/text/parts.rs", &["period", "duty"], "keys of a text"),
     ("crates/text/src/text/symbol.rs", &["delta", "omega"], "names of letters"),
     ("src/figure/text.rs", &["delta", "omega"], "names of symbols in TeX"),

@@ -111,7 +111,7 @@ fn valve_reaches(from: [f64; 3], coordinate: usize, q: f64) -> (f64, [f64; 3]) {
 /// A valve that does not bounce stays on its seat until the vessel has filled, at a constant rate, to the preload of the spring; from
 /// there its flight is followed by another method.
 #[test]
-fn a_valve_stays_on_its_seat_until_the_vessel_has_filled() {
+fn a_valve_stays_closed_until_the_vessel_has_filled() {
     let q = 1.0;
     let valve = A3::new(program(&characters("seat.toml"))).with_named("r", 0.0);
     let (step, mut state, mut flown, mut lift) = (1e-4, [0.0, 0.0, 10.0], 0.0, None);

@@ -13,7 +13,7 @@ fn misfits(text: &str) -> Vec<String> {
 }
 
 #[test]
-fn units_are_what_they_are_made_of() {
+fn units_are_products_of_powers_of_others() {
     let same = [
         ("N s/m", "kg/s"),
         ("J", "N m"),
