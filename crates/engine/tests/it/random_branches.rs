@@ -153,7 +153,7 @@ fn numbered_member(number: usize) -> (usize, Parameters, Parameter, [f64; 2]) {
 #[test]
 fn random_branches_of_members_are_the_same_by_any_settings() {
     let drawn = (0..).map(numbered_member).filter(|(_, it, ..)| !it.shape().is_rigid());
-    assert_independent(periodic(drawn, 2 * capsules()), 1.0 / 40.0);
+    assert_independent(periodic(drawn, 2 * capsules()), 1.0 / 20.0);
 }
 
 /// Members whose capsule rests at the section, or whose slips begin and end there: where rounding moves the section point off the rest,
