@@ -31,6 +31,7 @@ pub const JUMP: f64 = 1e-5;
 const ON_CIRCLE: f64 = 1e-10;
 /// An orbit that is no farther from one of half its period has a multiplier that cannot be told from one.
 const BESIDE: f64 = 1e-3;
+
 /// Why a step has to be halved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flaw {

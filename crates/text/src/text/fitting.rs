@@ -28,6 +28,13 @@ enum Known {
     Is(Unit),
 }
 
+impl Known {
+    /// What a unit says that may be given.
+    fn of(unit: Option<&String>) -> Self {
+        unit.map_or(Known::Nothing, |it| Known::Is(Unit::of(it)))
+    }
+}
+
 /// What does not fit in a text without faults, each with its place, in order of lines.
 pub fn misfits<'a>(source: &Source<'a>, table: &DeTable<'a>, text: &Text) -> Vec<Fault> {
     let parsed = Parsed::of(source, table);
@@ -54,10 +61,8 @@ impl<'s, 'a> Fitting<'s, 'a> {
     fn begun(source: &'s Source<'a>, parsed: &Parsed<'_, 'a>, text: &Text) -> Self {
         let states = text.states.iter().map(|it| (&it.name, Some(&it.unit)));
         let parameters = text.parameters.iter().map(|it| (&it.name, it.unit.as_ref()));
-        let of_unit =
-            |unit: Option<&String>| unit.map_or(Known::Nothing, |it| Known::Is(Unit::of(it)));
         let mut names: HashMap<String, Known> =
-            states.chain(parameters).map(|(name, unit)| (name.clone(), of_unit(unit))).collect();
+            states.chain(parameters).map(|(name, unit)| (name.clone(), Known::of(unit))).collect();
         // Where all is plain numbers, time is one, too.
         let has_unit = names.values().any(|it| matches!(it, Known::Is(unit) if !unit.is_number()));
         let time = Known::Is(if has_unit { Unit::of(TIME) } else { Unit::one() });
@@ -94,7 +99,7 @@ impl<'s, 'a> Fitting<'s, 'a> {
             self.expects(part(it.value, "duty"), &Known::Is(Unit::one()), "a share");
         }
         for it in entries(self.source, table, "rates") {
-            let state = self.names.get(&it.name).cloned().unwrap_or(Known::Nothing);
+            let state = self.named(&it.name);
             let rate = self.joined(Operator::Over, &state, &self.time.clone());
             self.expects(Some(it.value), &rate, &format!("the rate of {}", it.name));
         }
@@ -103,7 +108,7 @@ impl<'s, 'a> Fitting<'s, 'a> {
             self.condition(part(event, "while"));
             let Some(event) = event.get_ref().as_table() else { continue };
             for it in entries(self.source, event, "reset") {
-                let state = self.names.get(&it.name).cloned().unwrap_or(Known::Nothing);
+                let state = self.named(&it.name);
                 self.expects(Some(it.value), &state, &format!("what becomes of {}", it.name));
             }
         }
@@ -112,10 +117,7 @@ impl<'s, 'a> Fitting<'s, 'a> {
         self.expects(section, &self.time.clone(), &format!("`{key}` of the section"));
         for (it, output) in parsed.outputs.iter().zip(&text.outputs) {
             let value = part(it.value, "value").unwrap_or(it.value);
-            let unit = match &output.unit {
-                Some(unit) => Known::Is(Unit::of(unit)),
-                None => Known::Nothing,
-            };
+            let unit = Known::of(output.unit.as_ref());
             let found = self.expects(Some(value), &unit, &format!("the output {}", it.name));
             let known = if unit == Known::Nothing { found } else { unit };
             self.names.insert(it.name.clone(), known);

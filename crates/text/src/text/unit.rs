@@ -52,7 +52,7 @@ const PREFIXES: [(char, f64); 9] = [
 const SAME: f64 = 1e-9;
 
 /// A unit: powers of others, and its size in these.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Unit {
     /// The powers that are not zero. What is no unit that is known is one of its own.
     powers: BTreeMap<String, f64>,
