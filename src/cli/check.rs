@@ -47,7 +47,7 @@ impl Check {
 fn of_study(study: &Study) -> String {
     let mut text = String::new();
     let notes = study.remarks.iter().cloned().chain(study.remarks_on_values());
-    let notes = notes.chain(study.axes_without_effect()).chain(study.branches_without_effect());
+    let notes = notes.chain(study.varied_without_effect()).chain(study.branches_without_effect());
     for note in notes {
         let _ = writeln!(text, "note: {note}");
     }

@@ -22,11 +22,13 @@ use crate::orbit::Protocol;
 use crate::quantity::printable::printable;
 use crate::run::Machine;
 use crate::study::document::{unknown, unknown_of};
+use crate::study::without_effect::given_without_effect;
 
 const EXAMPLES: &str = "\
 Examples:
   capsulemap simulate --omega \"20.73 rad/s\" --k2 \"18.96 kN/m\" --json
   capsulemap simulate --set mu_s=0.4 --start r=-2.5e-3,y2=0.1 --cycles 50
+  capsulemap simulate --drive square --set duty=0.3 --set k3=\"20 kN/m\" --set delta_3=\"4 mm\"
   capsulemap simulate --friction-switching as-printed
   capsulemap simulate --study studies/overview.toml --case 1234
   capsulemap simulate --system systems/belt.toml --start x=1
@@ -208,7 +210,9 @@ impl Simulate {
         let completed = (model.rules.complete)(&mut parameters, &|parameter| {
             given.iter().any(|it| it.parameter == parameter)
         });
-        let notes = completed.map(|it| it.why).into_iter().collect();
+        let mut notes: Vec<String> = completed.map(|it| it.why).into_iter().collect();
+        let of_options: Vec<Parameter> = given.iter().map(|it| it.parameter).collect();
+        notes.extend(given_without_effect(&parameters, &of_options));
         let start = self.start(model, &mut faults);
         let [start_phase, section_phase] = self.phases.read(model, &mut faults);
         if !Protocol::TOLERANCES.contains(&self.tolerance) {
@@ -248,6 +252,12 @@ impl Simulate {
             match model.parameter(name) {
                 Some(parameter) => {
                     given.push(Given { option: format!("--set {name}"), parameter, text });
+                }
+                None if is_capsule(model) && model.choices.iter().any(|it| it.name == name) => {
+                    let option = name.replace('_', "-");
+                    faults.push(format!(
+                        "--set {name}: is chosen, not a value: write --{option} {text}"
+                    ));
                 }
                 None => {
                     let symbols = model.parameters().map(|parameter| parameter.symbol());

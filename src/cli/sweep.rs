@@ -76,7 +76,7 @@ impl Sweep {
         let machine = machine(self.threads, self.instructions)?;
         let study = read_study(&self.study)?;
         let notes = study.remarks.iter().cloned().chain(study.remarks_on_values());
-        let notes = notes.chain(study.axes_without_effect());
+        let notes = notes.chain(study.varied_without_effect());
         notes.for_each(|why| notify(&format!("note: {why}")));
         let output = output_path(&self.study, self.output.as_deref())?;
         let overwrite = self.overwrite;

@@ -28,7 +28,7 @@ mod study_file;
 mod study_text;
 mod toml_text;
 mod unknown_name;
-mod without_effect;
+pub(crate) mod without_effect;
 
 pub use appearance::{ColourMap, Colouring, QuantitySettings, ScaleChoice, Setting, Settings};
 pub use axis::{Axis, Coordinate, Spacing};

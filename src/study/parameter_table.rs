@@ -4,29 +4,38 @@ use super::Coordinate;
 use super::document::Table;
 use crate::description::{Parameter, Parameters};
 
-/// Reads `[parameters]` of a study that varies some coordinates, and says what it takes where the table leaves it open.
-pub(super) fn read_parameters(
-    top: &Table<'_, '_>,
-    varied: &[Coordinate],
-) -> (Parameters, Vec<String>) {
+/// What `[parameters]` of a study says.
+pub(super) struct ParameterTable {
+    /// The values.
+    pub values: Parameters,
+    /// The parameters that it gives.
+    pub given: Vec<Parameter>,
+    /// What is taken where it leaves something open, in sentences.
+    pub remarks: Vec<String>,
+}
+
+/// Reads `[parameters]` of a study that varies some coordinates.
+pub(super) fn read_parameters(top: &Table<'_, '_>, varied: &[Coordinate]) -> ParameterTable {
     let model = top.model();
-    let mut parameters = Parameters::of(model);
+    let mut values = Parameters::of(model);
     let table = top.table("parameters");
     if let Some(table) = &table {
-        read_choices(table, &mut parameters);
+        read_choices(table, &mut values);
     }
-    let given = read_values(top, table.as_ref(), varied, &mut parameters);
-    let Some(table) = table else { return (parameters, Vec::new()) };
+    let given = read_values(top, table.as_ref(), varied, &mut values);
+    let mut read = ParameterTable { values, given, remarks: Vec::new() };
+    let Some(table) = table else { return read };
     table.finish();
+    let ParameterTable { values, given, remarks } = &mut read;
     let missing =
-        (model.rules.missing)(&parameters, &|it| given.contains(&it), &|it| varies(varied, it));
+        (model.rules.missing)(values, &|it| given.contains(&it), &|it| varies(varied, it));
     if let Some(missing) = missing {
         top.missing(&format!("parameters.{}", missing.parameter.symbol()), &missing.why);
-        return (parameters, Vec::new());
+        return read;
     }
-    let completed =
-        (model.rules.complete)(&mut parameters, &|it| given.contains(&it) || varies(varied, it));
-    (parameters, completed.map(|it| it.why).into_iter().collect())
+    let completed = (model.rules.complete)(values, &|it| given.contains(&it) || varies(varied, it));
+    remarks.extend(completed.map(|it| it.why));
+    read
 }
 
 /// Whether a parameter is among the coordinates that vary.

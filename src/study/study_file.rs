@@ -2,7 +2,6 @@
 
 use toml::de::DeTable;
 
-use super::Refine;
 use super::axis_file::read_case_set;
 use super::branch_file::{Surroundings, read_branches};
 use super::conflicts::refuse;
@@ -11,9 +10,11 @@ use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
 use super::include;
 use super::named_model::{check_model, model_in};
-use super::parameter_table::read_parameters;
+use super::parameter_table::{ParameterTable, read_parameters};
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
+use super::without_effect::given_without_effect;
+use super::{CaseSet, Continuation, Coordinate, Refine};
 use crate::description::{Output, Parameters};
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
@@ -60,7 +61,8 @@ fn read_study(top: &Table<'_, '_>) -> Study {
         entry.fault("must be the name of one parameter file beside the study, as \"rig.toml\"");
     }
     let mut case_set = read_case_set(top);
-    let (base, remarks) = read_parameters(top, &case_set.varied());
+    let ParameterTable { values: base, given, mut remarks } =
+        read_parameters(top, &case_set.varied());
     let start = read_start(top, &mut case_set);
     let protocol = read_protocol(top);
     let basin = read_basin(top, &case_set);
@@ -68,6 +70,8 @@ fn read_study(top: &Table<'_, '_>) -> Study {
     let refine = read_map(top, &case_set, &outputs).or(basin.refine.then_some(Refine::Attractors));
     let surroundings = Surroundings { case_set: &case_set, base: &base, start: start.clone() };
     let branches = read_branches(top, &surroundings);
+    let with_all_parts = with_parts(&base, &varied_anywhere(&case_set, &branches));
+    remarks.extend(given_without_effect(&with_all_parts, &given));
     Study {
         title: String::new(),
         text: String::new(),
@@ -84,6 +88,12 @@ fn read_study(top: &Table<'_, '_>) -> Study {
         branches,
         case_set,
     }
+}
+
+/// What the cases or a branch vary.
+fn varied_anywhere(case_set: &CaseSet, branches: &[Continuation]) -> Vec<Coordinate> {
+    let of_branches = branches.iter().flat_map(Continuation::varied);
+    case_set.varied().into_iter().chain(of_branches.map(Coordinate::Parameter)).collect()
 }
 
 fn read_title(top: &Table<'_, '_>) -> String {

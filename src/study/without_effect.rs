@@ -1,13 +1,19 @@
-//! What varies in a study without effect on its motion, under what it chooses of its model.
+//! What a study gives or varies without effect on its motion, under what it chooses of its model.
 
 use super::axis::range;
 use super::{Axis, Continuation, Coordinate, Study};
 use crate::description::{Parameter, Parameters, Threshold};
 
 impl Study {
-    /// The axes of which several values give the same motion, each with the reason, in a sentence.
-    pub fn axes_without_effect(&self) -> Vec<String> {
-        self.axes().iter().filter_map(|axis| self.why_without_effect(axis)).collect()
+    /// The axes and draws of which several values give the same motion, each with the reason, in a sentence.
+    pub fn varied_without_effect(&self) -> Vec<String> {
+        let of_axes = self.axes().iter().filter_map(|axis| self.why_without_effect(axis));
+        let drawn = match self.axes() {
+            [] => self.case_set.varied(),
+            _ => Vec::new(),
+        };
+        let of_draws = drawn.into_iter().filter_map(|it| self.why_idle(it));
+        of_axes.chain(of_draws).collect()
     }
 
     /// What has no effect at the values of the study, in sentences, as far as it varies none of the parameters that are concerned.
@@ -49,14 +55,14 @@ impl Study {
 
     fn why_without_effect(&self, axis: &Axis) -> Option<String> {
         let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
-        match self.reason(parameter) {
-            Some(reason) if axis.values.len() > 1 => {
-                let name = parameter.symbol();
-                Some(format!("{name} has no effect {reason}; all its values give the same motion"))
-            }
-            Some(_) => None,
-            None => self.idle_values(axis, parameter),
-        }
+        self.why_idle(axis.coordinate).or_else(|| self.idle_values(axis, parameter))
+    }
+
+    /// That all values of a coordinate give the same motion.
+    fn why_idle(&self, coordinate: Coordinate) -> Option<String> {
+        let Coordinate::Parameter(parameter) = coordinate else { return None };
+        let (name, reason) = (parameter.symbol(), self.reason(parameter)?);
+        Some(format!("{name} has no effect {reason}; all its values give the same motion"))
     }
 
     /// Whether a parameter has an effect by what the study chooses.
@@ -98,6 +104,24 @@ impl Study {
         let all = axis.values.len();
         Some(format!("{why}; {idle} of its {all} values give the same motion"))
     }
+}
+
+/// Those of some parameters that have no effect by what is chosen and given, in sentences, one for each reason.
+pub fn given_without_effect(parameters: &Parameters, given: &[Parameter]) -> Vec<String> {
+    let mut reasons: Vec<(String, Vec<&str>)> = Vec::new();
+    for parameter in given {
+        let reason = (parameters.model().rules.no_effect)(parameters, *parameter);
+        let Some(reason) = reason else { continue };
+        match reasons.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, names)) => names.push(parameter.symbol()),
+            None => reasons.push((reason, vec![parameter.symbol()])),
+        }
+    }
+    let told = |(reason, names): (String, Vec<&str>)| match &names[..] {
+        [one] => format!("{one} has no effect {reason}"),
+        all => format!("{} have no effect {reason}", all.join(", ")),
+    };
+    reasons.into_iter().map(told).collect()
 }
 
 /// That a parameter has no effect in a part of what is above `low`.

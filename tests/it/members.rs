@@ -196,12 +196,61 @@ fn what_has_no_effect_or_runs_away_is_told_before_it_is_computed() {
         ],
     );
     told("release = \"force\"\n", &["release = \"force\" has no effect"]);
+    told(
+        "drive = \"square\"\nrise = 0.1\np_2 = \"1 N\"\nxi_1 = \"5 mm\"\n",
+        &[
+            "rise has no effect with the drive `square`: it belongs to `trapezoid`",
+            "p_2 has no effect with the drive `square`: it belongs to `two-harmonics`",
+            "xi_1 has no effect with the drive `square`: it belongs to `prescribed`",
+        ],
+    );
+    told(
+        "resistance = \"coulomb\"\nv_s = \"0.1 m/s\"\nstribeck = 0.5\n",
+        &["v_s, stribeck have no effect under the law `coulomb`"],
+    );
+    told("delta_3 = \"4 mm\"\n", &["delta_3 has no effect without `k3` or `k3_damping`"]);
+    told(
+        "restitution = 0.5\nk2_damping = \"1 N s/m\"\n",
+        &["k2, k2_damping have no effect beside `restitution`"],
+    );
+    told(
+        "drive = \"two-phase\"\ndrive_reaction = \"capsule\"\n",
+        &[
+            "drive_reaction = \"capsule\" has no effect",
+            "k2, delta have no effect with the drive `two-phase`",
+        ],
+    );
+    told(
+        "[draws]\ncount = 4\n[[axes]]\nname = \"duty\"\nfrom = 0.2\nto = 0.4\n",
+        &["duty has no effect with the drive `harmonic`"],
+    );
     told("incline = \"-60 deg\"\n", &["and what holds the capsule at rest", "`runaway`"]);
     // Near rest friction holds the first, which creeps on; nothing holds the second.
     let pulses = ["simulate", "--drive", "square", "--set", "duty=0.9"];
     assert!(dir.run(&pulses).done().out.contains("outcome: periodic (1)"));
     let ran = dir.run(&["simulate", "--set", "incline=-60 deg"]).done().out;
     assert!(ran.contains("nothing holds the mean force"), "{ran}");
+}
+
+/// `simulate` says of its options what a study says of its keys.
+#[test]
+fn what_has_no_effect_is_told_of_options() {
+    let dir = WorkDir::new();
+    let told =
+        |options: &[&str]| dir.run(&[&["simulate", "--cycles", "1"], options].concat()).done().err;
+    let duty = told(&["--set", "duty=0.3"]);
+    assert!(duty.contains("note: duty has no effect with the drive `harmonic`"), "{duty}");
+    assert_eq!(told(&["--set", "duty=0.3", "--drive", "square"]), "");
+    let chosen = ["simulate", "--set", "drive_reaction=capsule"];
+    dir.run(&chosen).refused(&["--set drive_reaction", "write --drive-reaction capsule"]);
+    // Where both directions have their coefficient, neither follows from that at rest.
+    let [forward, backward] = ["mu_d_forward=0.2", "mu_d_backward=0.5"];
+    let law = ["--resistance", "coulomb", "--set", "mu_s=0.4", "--set", forward];
+    assert!(told(&law).contains("so mu_d = mu_s = 0.4"));
+    assert_eq!(told(&[&law[..], &["--set", backward]].concat()), "");
+    let both = ["--set", forward, "--set", backward, "--set", "mu_d=0.3"];
+    let idle = "note: mu_d has no effect beside `mu_d_forward` and `mu_d_backward`";
+    assert!(told(&both).contains(idle), "{}", told(&both));
 }
 
 /// Both stops are drawn in histories, phase portraits and basins: a dashed line for each.

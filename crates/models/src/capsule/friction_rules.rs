@@ -35,6 +35,11 @@ fn other(parameter: Parameter) -> Option<Parameter> {
     }
 }
 
+/// Whether those of the two directions stand in the place of a coefficient.
+fn is_told_by_direction(coefficient: Parameter, is_told: description::rules::Which<'_>) -> bool {
+    coefficient.directions().all(|it| is_told(it.into()))
+}
+
 /// The coefficient of Coulomb's law that is neither given nor on an axis, where the other is on an axis: it is one number for all
 /// cases, so it cannot follow the axis.
 pub(super) fn missing(
@@ -44,7 +49,8 @@ pub(super) fn missing(
 ) -> Option<NotGiven> {
     let open = [Parameter::MuS, Parameter::MuD].into_iter().find(|&it| {
         let of_axis = other(it).is_some_and(|other| on_axis(other.into()));
-        of_axis && !on_axis(it.into()) && !given(it.into())
+        let is_told = |it| on_axis(it) || given(it);
+        of_axis && !is_told(it.into()) && !is_told_by_direction(it, &is_told)
     })?;
     if parameters.resistance() != Resistance::Coulomb {
         return None;
@@ -68,7 +74,7 @@ pub(super) fn complete(
         (false, true) => (Parameter::MuD, Parameter::MuS),
         _ => return None,
     };
-    if parameters.resistance() != Resistance::Coulomb {
+    if parameters.resistance() != Resistance::Coulomb || is_told_by_direction(to, given) {
         return None;
     }
     parameters[to] = parameters[from];

@@ -128,6 +128,12 @@ impl Parameter {
         }
     }
 
+    /// Those of one direction each for which it stands where they are not given.
+    pub fn directions(self) -> impl Iterator<Item = Parameter> {
+        let follows = move |it: &Parameter| it.leader() == self && *it != self;
+        Parameter::ALL.iter().copied().filter(follows)
+    }
+
     /// The parameter with this symbol.
     pub fn named(symbol: &str) -> Option<Parameter> {
         Parameter::OVER_FOLDS.iter().copied().find(|parameter| parameter.symbol() == symbol)

@@ -23,10 +23,24 @@ fn remarks(parameters: &Parameters) -> Vec<Remark> {
     let own = [
         idle_static_friction(parameters),
         runaway(parameters),
+        idle_reaction(parameters),
         idle_release(parameters),
         idle_folds(parameters),
     ];
     own.into_iter().flatten().collect()
+}
+
+/// That a prescribed relative motion acts on the capsule whatever is said of its reaction.
+fn idle_reaction(parameters: &Parameters) -> Option<Remark> {
+    let shape = parameters.shape();
+    let is_idle = shape.reaction == Reaction::Capsule && shape.drive.is_prescribed();
+    is_idle.then(|| Remark {
+        about: Vec::new(),
+        text: format!(
+            "drive_reaction = \"capsule\" has no effect: the mass acts on the capsule in any case where its relative motion is `{}`",
+            shape.drive.name()
+        ),
+    })
 }
 
 /// That stops without damping are left where their force falls to zero in any case.

@@ -267,6 +267,11 @@ impl Shape {
         Parameter::ALL.iter().any(|it| it.leader() != *it && self.has(*it))
     }
 
+    /// Whether a parameter is given for both directions, each by its own.
+    fn has_both_directions(self, parameter: Parameter) -> bool {
+        parameter.directions().all(|it| self.has(it))
+    }
+
     /// Whether there is no dry friction.
     pub fn is_medium(self) -> bool {
         self.law == Resistance::Medium
@@ -314,6 +319,12 @@ impl Shape {
                 if law != Resistance::Medium && !self.has(parameter) =>
             {
                 of_friction("it is not given, and there is no drag beside friction")
+            }
+            (Parameter::MuS | Parameter::MuD | Parameter::C1 | Parameter::C2, _, _)
+                if self.has_both_directions(parameter) =>
+            {
+                let name = parameter.symbol();
+                Some(format!("beside `{name}_forward` and `{name}_backward`"))
             }
             (Parameter::K2 | Parameter::K2Damping | Parameter::K2Cubic, _, _)
                 if self.is_rigid() =>

@@ -118,15 +118,16 @@ fn a_parameter_of_one_model_is_none_of_another() {
     let _ = other[Parameter::M1];
 }
 
+/// The force needed to leave rest, and that of sliding at some speeds [N].
+fn felt(parameters: &Parameters) -> (f64, [f64; 4]) {
+    let sliding = [-1.3, -1e-3, 2e-4, 0.7]
+        .map(|y2| Forces::of(parameters, &State::of([0.01, 0.2, 0.0, y2]), 0.0).friction);
+    (parameters.break_away(), sliding)
+}
+
 /// What has no effect changes no force: neither that needed to leave rest nor that of sliding at any speed.
 #[test]
 fn what_is_said_to_have_no_effect_has_none() {
-    let speeds = [-1.3, -1e-3, 2e-4, 0.7];
-    let felt = |parameters: &Parameters| {
-        let sliding =
-            speeds.map(|y2| Forces::of(parameters, &State::of([0.01, 0.2, 0.0, y2]), 0.0).friction);
-        (parameters.break_away(), sliding)
-    };
     let mut idle = 0;
     for (_, law) in Resistance::NAMES {
         for mu_s in [0.0, 0.1, 0.3, 0.5, 0.9] {
@@ -156,6 +157,28 @@ fn what_is_said_to_have_no_effect_has_none() {
         }
     }
     assert!(idle > 20, "{idle}");
+}
+
+/// Where both directions have a coefficient of their own, that of both changes no force; where one has, it changes some.
+#[test]
+fn what_both_directions_have_of_their_own_has_no_effect_for_both() {
+    use Parameter::{MuD, MuDBackward, MuDForward, MuS, MuSBackward, MuSForward};
+    for (both, [forward, backward]) in
+        [(MuS, [MuSForward, MuSBackward]), (MuD, [MuDForward, MuDBackward])]
+    {
+        let mut parameters = Parameters::with(&[(forward, 0.8), (Parameter::P0, -1.0)]);
+        let changes = |parameters: &Parameters| {
+            let mut other = parameters.clone();
+            other[both] *= 1.5;
+            felt(parameters) != felt(&other)
+        };
+        let said = |it: &Parameters| (CAPSULE.rules.no_effect)(it, both.into());
+        assert!(changes(&parameters) && said(&parameters).is_none(), "{both:?}");
+        parameters[backward] = 0.9;
+        let symbol = both.symbol();
+        let why = format!("beside `{symbol}_forward` and `{symbol}_backward`");
+        assert!(!changes(&parameters) && said(&parameters) == Some(why), "{both:?}");
+    }
 }
 
 #[test]
