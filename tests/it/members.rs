@@ -209,10 +209,13 @@ fn what_has_no_effect_or_runs_away_is_told_before_it_is_computed() {
         &["v_s, stribeck have no effect under the law `coulomb`"],
     );
     told("delta_3 = \"4 mm\"\n", &["delta_3 has no effect without `k3` or `k3_damping`"]);
-    told(
-        "restitution = 0.5\nk2_damping = \"1 N s/m\"\n",
-        &["k2, k2_damping have no effect beside `restitution`"],
+    dir.put(
+        "rigid.toml",
+        format!("{FIG5}restitution = 0.5\nk2_damping = \"1 N s/m\"\n")
+            .replace("k2 = \"2.42 kN/m\"\n", ""),
     );
+    let rigid = dir.run(&["check", "rigid.toml"]).done().out;
+    assert!(rigid.contains("k2_damping has no effect beside `restitution`"), "{rigid}");
     told(
         "drive = \"two-phase\"\ndrive_reaction = \"capsule\"\n",
         &[
