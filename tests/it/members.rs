@@ -217,10 +217,10 @@ fn what_has_no_effect_or_runs_away_is_told_before_it_is_computed() {
     let rigid = dir.run(&["check", "rigid.toml"]).done().out;
     assert!(rigid.contains("k2_damping has no effect beside `restitution`"), "{rigid}");
     told(
-        "drive = \"two-phase\"\ndrive_reaction = \"capsule\"\n",
+        "drive = \"three-phase\"\ndrive_reaction = \"capsule\"\n",
         &[
             "drive_reaction = \"capsule\" has no effect",
-            "k2, delta have no effect with the drive `two-phase`",
+            "k2, delta have no effect with the drive `three-phase`",
         ],
     );
     told(

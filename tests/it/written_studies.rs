@@ -204,9 +204,9 @@ impl Random {
     }
 }
 
-/// A study without its text, shown with all digits, so that 0 and -0 differ too.
+/// A study without its text and what is told of that, shown with all digits, so that 0 and -0 differ too.
 fn shown(study: &Study) -> String {
-    format!("{:#?}", Study { text: String::new(), ..study.clone() })
+    format!("{:#?}", Study { text: String::new(), remarks: Vec::new(), ..study.clone() })
 }
 
 fn assert_round_trip(study: &Study) {
