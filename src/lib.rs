@@ -135,7 +135,7 @@
 //! Of the examples in `crates/engine/examples`, `impact_oscillator.rs` has all of it on a page, `duffing.rs` none;
 //! `relief_valve.rs` is autonomous and `belt.rs` has modes.
 //!
-//! What is not there yet: a law of restitution whose impacts accumulate fails with `NoProgress`, and ends a branch as
+//! What is not there yet: a law of restitution whose impacts accumulate fails with `Chatter`, and ends a branch as
 //! [`branch::End::Corner`], as it needs a mode of its own for rest on the surface.
 //!
 //! # Traps

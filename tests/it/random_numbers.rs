@@ -51,6 +51,12 @@ impl Random {
             Allowed::UpToTen => self.uniform(0.0, 10.0),
             Allowed::Slope => self.uniform(-1.5, 1.5),
             Allowed::Finite => size * self.one(&[-1.0, 1.0]),
+            Allowed::Within(_) => loop {
+                let number = self.number(Allowed::Finite);
+                if allowed.admits(number) {
+                    return number;
+                }
+            },
         }
     }
 

@@ -55,7 +55,9 @@ pub fn follow<M: System<D>, const D: usize>(
         4 => follow_with::<M, D, 5, 6>(request),
         5 => follow_with::<M, D, 6, 7>(request),
         6 => follow_with::<M, D, 7, 8>(request),
-        _ => panic!("a section has one to six coordinates, not {D}"),
+        7 => follow_with::<M, D, 8, 9>(request),
+        8 => follow_with::<M, D, 9, 10>(request),
+        _ => panic!("a section has one to eight coordinates, not {D}"),
     }
 }
 

@@ -43,8 +43,8 @@ const LONGEST: f64 = 0.999;
 /// An event so near to the section [cycles] may be met on one side of it by the orbit's point and on the other by its return, which
 /// differ by rounding, as where a capsule at rest has a velocity of 1e-20.
 const AT_SECTION: f64 = 1e-4;
-/// Pairs of two of six coordinates.
-const MOST_PAIRS: usize = 15;
+/// Pairs of two of eight coordinates.
+const MOST_PAIRS: usize = 28;
 
 /// What is seen of an orbit.
 #[derive(Debug, Clone)]

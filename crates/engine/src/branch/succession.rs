@@ -65,7 +65,9 @@ fn segment_of<M: System<D>, const D: usize>(
         4 => segment_with::<M, D, 5>(&limited, along, from, to, changes),
         5 => segment_with::<M, D, 6>(&limited, along, from, to, changes),
         6 => segment_with::<M, D, 7>(&limited, along, from, to, changes),
-        _ => panic!("a section has one to six coordinates, not {D}"),
+        7 => segment_with::<M, D, 8>(&limited, along, from, to, changes),
+        8 => segment_with::<M, D, 9>(&limited, along, from, to, changes),
+        _ => panic!("a section has one to eight coordinates, not {D}"),
     }
 }
 

@@ -31,11 +31,13 @@ pub enum Reason {
     Runaway,
     /// No motion starts in such a state, as behind a rigid stop; told by models.
     NoStart,
+    /// Impacts follow each other without time passing: they accumulate, and the system has no contact that lasts.
+    Chatter,
 }
 
 impl Reason {
     /// Every reason with its name in files.
-    pub const NAMES: [(Reason, &str); 7] = [
+    pub const NAMES: [(Reason, &str); 8] = [
         (Reason::NoProgress, "no-progress"),
         (Reason::NotFinite, "not-finite"),
         (Reason::TooManySteps, "too-many-steps"),
@@ -43,6 +45,7 @@ impl Reason {
         (Reason::OutOfSteps, "out-of-steps"),
         (Reason::Runaway, "runaway"),
         (Reason::NoStart, "no-start"),
+        (Reason::Chatter, "chatter"),
     ];
 }
 
@@ -50,6 +53,7 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Reason::NoProgress => Breakdown::NoProgress.fmt(f),
+            Reason::Chatter => Breakdown::Chatter.fmt(f),
             Reason::NotFinite => Breakdown::NotFinite.fmt(f),
             Reason::NoReturn => Breakdown::NoReturn.fmt(f),
             Reason::Runaway => Breakdown::RunsAway.fmt(f),
@@ -64,6 +68,7 @@ impl From<Breakdown> for Reason {
     fn from(breakdown: Breakdown) -> Self {
         match breakdown {
             Breakdown::NoProgress => Reason::NoProgress,
+            Breakdown::Chatter => Reason::Chatter,
             Breakdown::NotFinite => Reason::NotFinite,
             Breakdown::NoReturn => Reason::NoReturn,
             Breakdown::RunsAway => Reason::Runaway,
@@ -86,7 +91,7 @@ pub fn cycle<L: Lane, S: Switched<L>>(
     for _ in 0..most {
         motion.single_step(system, period, tolerance, step);
         see(step);
-        if let Some(breakdown) = motion.breakdown(system, 0) {
+        if let Some(breakdown) = motion.breakdown(system, step, 0) {
             return Err(breakdown.into());
         }
         if step.arrives.lane(0) {

@@ -8,7 +8,7 @@ use super::guard::{divide_by_time, first_fall, stays_positive};
 use super::step::Step;
 use super::step_end::StepEnd;
 use super::stop;
-use super::switched::{MAX_GUARDS, Switched, Zeros};
+use super::switched::{Event as _, MAX_GUARDS, Switched, Zeros};
 
 /// So many steps in a row may pass without getting anywhere: simultaneous events need a few.
 const PATIENCE: f64 = 64.0;
@@ -48,6 +48,8 @@ impl<L: Lane, S: Switched<L>> Copy for Motion<L, S> {}
 pub enum Breakdown {
     /// Events follow each other without time passing.
     NoProgress,
+    /// The same, and the last of them is an impact: impacts accumulate.
+    Chatter,
     /// The state, or a guard that is watched, is no longer a finite number.
     NotFinite,
     /// An autonomous system does not come back to its section in time.
@@ -62,6 +64,7 @@ impl fmt::Display for Breakdown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Breakdown::NoProgress => "events follow each other without time passing",
+            Breakdown::Chatter => "impacts accumulate, and no contact lasts after them",
             Breakdown::NotFinite => "the state or a guard is no longer a finite number",
             Breakdown::NoReturn => "the motion does not come back to its section",
             Breakdown::RunsAway => "nothing holds the mean force: the motion accelerates for ever",
@@ -187,14 +190,16 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         if S::AUTONOMOUS { broken | system.period().le(self.time) } else { broken }
     }
 
-    /// What keeps the motion in lane `index` from going on, if anything.
+    /// What keeps the motion in lane `index`, whose last step this is, from going on, if anything.
     #[inline(always)]
-    pub fn breakdown(&self, system: &S, index: usize) -> Option<Breakdown> {
+    pub fn breakdown(&self, system: &S, last: &Step<L, S>, index: usize) -> Option<Breakdown> {
         if system.lost(&self.state).lane(index) || self.idle.lane(index) == f64::INFINITY {
             return Some(Breakdown::NotFinite);
         }
         if L::splat(PATIENCE).lt(self.idle).lane(index) {
-            return Some(Breakdown::NoProgress);
+            let event = S::Event::from_code(last.event.lane(index));
+            let hits = event.is_some_and(|it| it.is_impact());
+            return Some(if hits { Breakdown::Chatter } else { Breakdown::NoProgress });
         }
         if system.runs_away(&self.state).lane(index) {
             return Some(Breakdown::RunsAway);

@@ -189,7 +189,7 @@ impl<N: Lane, M: System<D>, A, const D: usize> Lanes<N, M, A, D> {
     /// What keeps the motion in a lane from going on, if anything.
     #[inline(always)]
     pub fn breakdown(&self, lane: usize) -> Option<Breakdown> {
-        self.motion.breakdown(&self.system, lane)
+        self.motion.breakdown(&self.system, &self.step, lane)
     }
 
     /// Follows motions until the task has none left.

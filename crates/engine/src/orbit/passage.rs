@@ -124,7 +124,9 @@ impl<M: System<D>, const D: usize> Integrator<M, D> for OneByOne {
             4 => alone::<M, D, 5>(&request),
             5 => alone::<M, D, 6>(&request),
             6 => alone::<M, D, 7>(&request),
-            _ => panic!("a section has one to six coordinates, not {D}"),
+            7 => alone::<M, D, 8>(&request),
+            8 => alone::<M, D, 9>(&request),
+            _ => panic!("a section has one to eight coordinates, not {D}"),
         }
     }
 

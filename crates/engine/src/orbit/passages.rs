@@ -50,7 +50,9 @@ impl<M: System<D>, const D: usize> Work for Requests<'_, M, D> {
             4 => together::<L, M, D, 5>(self.requests),
             5 => together::<L, M, D, 6>(self.requests),
             6 => together::<L, M, D, 7>(self.requests),
-            _ => panic!("a section has one to six coordinates, not {D}"),
+            7 => together::<L, M, D, 8>(self.requests),
+            8 => together::<L, M, D, 9>(self.requests),
+            _ => panic!("a section has one to eight coordinates, not {D}"),
         }
     }
 }

@@ -193,7 +193,7 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
 
     /// Tells where it is when it cannot go on, and why.
     pub fn stuck(&self) -> Failure<S::State> {
-        let breakdown = self.motion.breakdown(self.system, 0);
+        let breakdown = self.motion.breakdown(self.system, &self.step, 0);
         let out_of = match self.progress.steps {
             STEPS_PER_CYCLE.. => Reason::TooManySteps,
             _ => Reason::OutOfSteps,

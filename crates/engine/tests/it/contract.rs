@@ -37,7 +37,7 @@ fn largest_defect<S: Field>(system: &S, start: S::State, cycles: u32) -> f64 {
     let (mut largest, mut size, mut done) = (0.0, 0.0_f64, 0);
     while done < cycles {
         motion.step(system, period, TOLERANCE, &mut step);
-        assert_eq!(motion.breakdown(system, 0), None);
+        assert_eq!(motion.breakdown(system, &step, 0), None);
         largest = greater(largest, defect(system, &step));
         let begins = S::coordinates(&system.beginning(&step.jet));
         for (x, weight) in begins.as_ref().iter().zip(system.weights().as_ref()) {

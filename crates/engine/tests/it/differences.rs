@@ -28,7 +28,7 @@ where
         loop {
             motion.step(system, period, TOLERANCE, &mut step);
             see(&step);
-            assert_eq!(motion.breakdown(system, 0), None, "the integration continues");
+            assert_eq!(motion.breakdown(system, &step, 0), None, "the integration continues");
             if period.le(motion.time) {
                 break;
             }

@@ -6,7 +6,7 @@ use std::ops::{Deref, DerefMut};
 use serde::{Serialize, Serializer};
 
 /// Coordinates of a section, at most.
-pub const MOST_COORDINATES: usize = 6;
+pub const MOST_COORDINATES: usize = 8;
 
 /// A point of the section (SI), in the order of the coordinates of its model; it reads as a slice.
 #[derive(Clone, Copy)]

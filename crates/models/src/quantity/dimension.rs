@@ -1,7 +1,4 @@
-//! Physical dimensions with their units, and what values a quantity may take.
-
-use std::f64::consts::FRAC_PI_2;
-use std::fmt;
+//! Physical dimensions with their units.
 
 /// A physical dimension that a parameter, a coordinate or an output can have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,54 +93,5 @@ impl Dimension {
             Dimension::Number => "1",
             Dimension::Other(unit) => unit,
         }
-    }
-}
-
-/// What values a parameter may take.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Allowed {
-    /// Any finite number.
-    Finite,
-    /// Finite and at least zero.
-    NonNegative,
-    /// Finite and above zero.
-    Positive,
-    /// Above 0 and below 1.
-    Share,
-    /// From 0 to 1.
-    UpToOne,
-    /// From 0 to 10.
-    UpToTen,
-    /// Above -pi/2 and below pi/2, an angle.
-    Slope,
-}
-
-impl Allowed {
-    /// Whether `value` may be used.
-    pub fn admits(self, value: f64) -> bool {
-        value.is_finite()
-            && match self {
-                Allowed::Finite => true,
-                Allowed::NonNegative => value >= 0.0,
-                Allowed::Positive => value > 0.0,
-                Allowed::Share => value > 0.0 && value < 1.0,
-                Allowed::UpToOne => (0.0..=1.0).contains(&value),
-                Allowed::UpToTen => (0.0..=10.0).contains(&value),
-                Allowed::Slope => value.abs() < FRAC_PI_2,
-            }
-    }
-}
-
-impl fmt::Display for Allowed {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Allowed::Finite => "a finite number",
-            Allowed::NonNegative => "a finite number, zero or above",
-            Allowed::Positive => "a finite number above zero",
-            Allowed::Share => "a number above 0 and below 1",
-            Allowed::UpToOne => "a number from 0 to 1",
-            Allowed::UpToTen => "a number from 0 to 10",
-            Allowed::Slope => "an angle above -90 deg and below 90 deg",
-        })
     }
 }

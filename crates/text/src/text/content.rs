@@ -1,5 +1,7 @@
 //! An oscillator as its text says it: states, rates, and what makes it switch, as values of one graph.
 
+use capsulemap_models::quantity::Bounds;
+
 use crate::text::fault::Fault;
 use crate::text::graph::{Graph, Id, Node};
 use crate::text::linear::Linear;
@@ -7,7 +9,7 @@ use crate::text::linear::Linear;
 /// The most states of a system.
 pub const MOST_STATES: usize = 8;
 /// The most coordinates of a point of a section.
-pub const MOST_ON_SECTION: usize = 6;
+pub const MOST_ON_SECTION: usize = 8;
 /// The most switches, frictions and events of a system, each.
 pub const MOST_OF_A_KIND: usize = 8;
 /// The most pulses of a system.
@@ -105,6 +107,8 @@ pub struct Parameter {
     pub name: String,
     /// Its value where none is given.
     pub default: f64,
+    /// What it may be.
+    pub bounds: Bounds,
     /// Its unit, as the text has it; none where it has none.
     pub unit: Option<String>,
     /// What it is, in words.

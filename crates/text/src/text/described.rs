@@ -9,7 +9,7 @@ use capsulemap_models::description::{
 };
 use capsulemap_models::quantity::shown::shown;
 use capsulemap_models::quantity::units::dimension_of;
-use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
+use capsulemap_models::quantity::{Allowed, Bounds, Dimension, Quantity};
 
 use crate::text::content::{Section, State, Text};
 use crate::text::event_names::{event_name, event_symbol};
@@ -184,11 +184,23 @@ fn of_parameter(text: &Text, it: &crate::text::content::Parameter) -> ParameterD
             shown: shown("", kept(symbol(&it.name)), of_unit(dimension), 1.0),
         },
         tag: kept(it.name.clone()),
-        allowed: if is_time { Allowed::Positive } else { Allowed::Finite },
+        allowed: allowed(it.bounds, is_time),
         default: it.default,
         is_asked_for: false,
         presence: Presence::Always,
         replaces: None,
+    }
+}
+
+/// What a parameter with these bounds may be; above zero where it tells how long a cycle lasts.
+fn allowed(bounds: Bounds, is_time: bool) -> Allowed {
+    match bounds {
+        Bounds::NONE if is_time => Allowed::Positive,
+        Bounds::NONE => Allowed::Finite,
+        _ if is_time && bounds.least <= 0.0 && bounds.above < 0.0 => {
+            Allowed::Within(Bounds { least: Bounds::NONE.least, above: 0.0, ..bounds })
+        }
+        _ => Allowed::Within(bounds),
     }
 }
 

@@ -19,6 +19,8 @@ use crate::text::tables::system_alone;
 const FEW: usize = 3;
 /// The same of others.
 const MANY: usize = MOST_ON_SECTION;
+/// Places of the states of those.
+const PLACES: usize = MANY + 2;
 
 /// The models that were made, by what differs between texts that differ.
 static KNOWN: Mutex<BTreeMap<String, &'static Description>> = Mutex::new(BTreeMap::new());
@@ -60,8 +62,10 @@ fn of_text(text: Text, tables: String) -> (&'static dyn Model, &'static Descript
     let model: &'static dyn Model = match (is_driven, room) {
         (true, FEW) => Box::leak(Box::new(Of::<Driven<FEW, 5>, FEW>::described(description))),
         (false, FEW) => Box::leak(Box::new(Of::<Autonomous<FEW, 5>, FEW>::described(description))),
-        (true, _) => Box::leak(Box::new(Of::<Driven<MANY, 8>, MANY>::described(description))),
-        (false, _) => Box::leak(Box::new(Of::<Autonomous<MANY, 8>, MANY>::described(description))),
+        (true, _) => Box::leak(Box::new(Of::<Driven<MANY, PLACES>, MANY>::described(description))),
+        (false, _) => {
+            Box::leak(Box::new(Of::<Autonomous<MANY, PLACES>, MANY>::described(description)))
+        }
     };
     (model, description)
 }

@@ -2,6 +2,8 @@
 
 use toml::de::DeTable;
 
+use capsulemap_models::quantity::Bounds;
+
 use crate::text::content::{
     Bound, Event, Lasting, MOST_OF_A_KIND, Moved, Parameter, Pulse, Section, State, Switch,
     TextOutput,
@@ -320,19 +322,44 @@ pub(crate) fn state<'a>(source: &Source<'a>, it: &Entry<'_, 'a>) -> Option<State
 }
 
 pub(crate) fn parameter<'a>(source: &Source<'a>, it: &Entry<'_, 'a>) -> Option<Parameter> {
+    let name = it.name.clone();
+    let bounds = Bounds::NONE;
     let Some(table) = it.value.get_ref().as_table() else {
-        let default = source.number(it.value, &it.name)?;
-        return Some(Parameter { name: it.name.clone(), default, unit: None, meaning: None });
+        let default = source.number(it.value, &name)?;
+        return Some(Parameter { name, default, bounds, unit: None, meaning: None });
     };
-    let place = format!("[system.parameters.{}]", it.name);
-    source.only(table, &place, &["default", "unit", "meaning"]);
+    let place = format!("[system.parameters.{name}]");
+    let keys = ["default", "unit", "meaning", "least", "above", "most", "below"];
+    source.only(table, &place, &keys);
     let default = match table.get("default") {
         Some(value) => source.number(value, "default"),
         None => {
-            source.fault(it.at, format!("{} needs a default", it.name));
+            source.fault(it.at, format!("{name} needs a default"));
             None
         }
     };
     let [unit, meaning] = unit_and_meaning(source, table);
-    Some(Parameter { name: it.name.clone(), default: default?, unit, meaning })
+    let (default, bounds) = (default?, bounds_of(source, table, &name));
+    if !bounds.admit(default) {
+        source.fault(it.at, format!("the default of {name}, {default}, must be {bounds}"));
+    }
+    Some(Parameter { name, default, bounds, unit, meaning })
+}
+
+/// The bounds that a table gives a parameter, no two of one side.
+fn bounds_of<'a>(source: &Source<'a>, table: &DeTable<'a>, name: &str) -> Bounds {
+    let given = |key: &str| table.get(key).and_then(|it| source.number(it, key));
+    for [one, other] in [["least", "above"], ["most", "below"]] {
+        if let (Some(_), Some(value)) = (table.get(one), table.get(other)) {
+            let message = format!("{name} has `{one}` and `{other}`: leave one of them out");
+            source.fault(value.span().start, message);
+        }
+    }
+    let none = Bounds::NONE;
+    Bounds {
+        least: given("least").unwrap_or(none.least),
+        above: given("above").unwrap_or(none.above),
+        most: given("most").unwrap_or(none.most),
+        below: given("below").unwrap_or(none.below),
+    }
 }

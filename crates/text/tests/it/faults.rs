@@ -1,5 +1,6 @@
 //! What is said of texts with faults: each with its line and column, whatever the characters.
 
+use capsulemap_text::model::model;
 use capsulemap_text::read;
 use proptest::prelude::*;
 
@@ -113,6 +114,39 @@ fn what_cannot_be_is_refused_with_the_reason() {
 }
 
 /// Texts that are too long are refused, and some that are just not are read.
+/// Bounds of a parameter hold for its default and for what is given.
+#[test]
+fn parameters_keep_within_their_bounds() {
+    let impact = characters("impact.toml");
+    let with = |r: &str| impact.replace("r = 0.7", &format!("r = {{ default = 0.7, {r} }}"));
+    let told = |r: &str| faults(&with(r)).join("; ");
+    assert_eq!(told("least = 0.0, below = 1.0"), "");
+    for (r, fault) in [
+        (
+            "above = 0.7",
+            "line 10, column 1: the default of r, 0.7, must be a finite number above 0.7",
+        ),
+        ("least = 0.0, most = 0.5", "must be a finite number of at least 0 and of at most 0.5"),
+        ("least = 0.0, above = 0.1", "r has `least` and `above`: leave one of them out"),
+        ("most = 2.0, below = 1.0", "r has `most` and `below`: leave one of them out"),
+        ("least = \"0\"", "least must be a finite number"),
+        ("at_least = 0.0", "has no key \"at_least\"; did you mean \"least\"?"),
+    ] {
+        assert!(told(r).contains(fault), "{r}: {}", told(r));
+    }
+    let described = model(&with("least = 0.0, below = 1.0")).expect("a model");
+    let allowed = described.parameter("r").expect("a parameter").allowed();
+    for (value, is_allowed) in [(0.0, true), (0.99, true), (1.0, false), (-0.1, false)] {
+        assert_eq!(allowed.admits(value), is_allowed, "{value}");
+    }
+    // A frequency is above zero whatever its bounds are.
+    let frequency = impact.replace("w = 1.5", "w = { default = 1.5, most = 3.0 }");
+    let described = model(&frequency).expect("a model");
+    let allowed = described.parameter("w").expect("a parameter").allowed();
+    assert!(allowed.admits(3.0) && !allowed.admits(0.0) && !allowed.admits(3.1));
+    assert_eq!(allowed.to_string(), "a finite number above 0 and of at most 3");
+}
+
 #[test]
 fn long_texts_are_refused_and_do_not_exhaust_the_stack() {
     let belt = characters("belt.toml");

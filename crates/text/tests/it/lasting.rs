@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use capsulemap_engine::flow::Reason;
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{Case, Machine, Outcome, Proof, Protocol, settle, settle_all};
 use capsulemap_models::description::{Parameters, State};
@@ -109,6 +110,23 @@ fn a_ball_rests_on_a_table_that_never_falls_as_fast_as_it() {
         let orbit = settle(&from_height(&ball(a, omega, r), 0.01), &Protocol::default());
         assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1), "{r}");
         assert_eq!(orbit.section[0], [0.0; 3]);
+    }
+}
+
+/// Where no contact lasts, bounces that accumulate are the end of what can be computed, alone and in lanes.
+#[test]
+fn bounces_that_accumulate_without_a_contact_that_lasts_are_chatter() {
+    let text = characters("ball.toml").replace("lasting = true", "lasting = false");
+    let system = D3::new(program(&text)).with_named("a", 0.0).with_named("r", 0.6);
+    let cases: Vec<_> = (1..=24).map(|it| from_height(&system, 0.01 * f64::from(it))).collect();
+    let (alone, together) = (
+        cases.iter().map(|it| settle(it, &Protocol::default())).collect::<Vec<_>>(),
+        settle_all(&cases, &Protocol::default(), Machine::default()),
+    );
+    for orbit in alone.iter().chain(&together) {
+        assert_eq!(orbit.outcome, Outcome::Failed);
+        let why = orbit.failure.as_ref().map(|it| it.reason);
+        assert_eq!(why, Some(Reason::Chatter));
     }
 }
 

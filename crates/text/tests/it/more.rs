@@ -83,6 +83,36 @@ fn the_drift_oscillator_has_the_published_multiplier() {
     assert!((other.section[0][0] - orbit.section[0][0]).abs() < 1e-9);
 }
 
+/// Csernak's family: at half the natural frequency, with friction f, a motion that begins at rest at x = f + 4/3 + a turns back where a
+/// period of free vibration has passed, at f - 4/3 + a, and is where it began after a period of the drive, for every a for which it
+/// does not stick: |a| and |a + 2 f| below 1/3, as its velocity is -(2/3) sin(t/2) - a sin t, then with a + 2 f.
+#[test]
+fn every_motion_of_the_neutral_family_with_dry_friction_repeats() {
+    let f = 0.05;
+    let of_half = driven("friction.toml").with_named("w", 0.5).with_named("f", f);
+    let of_half = of_half.with_named("s", f);
+    let protocol = Protocol::default();
+    let begun = |a: f64| {
+        settle(&Case::new(of_half.clone(), [f + 4.0 / 3.0 + a, 0.0, 0.0, 0.0, 0.0]), &protocol)
+    };
+    for a in [-0.33, -0.2, -0.05, 0.1, 0.22] {
+        let orbit = begun(a);
+        assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1), "{a}");
+        assert_eq!(orbit.certificate.proof, Proof::Neutral, "{a}");
+        let [x, v, _] = orbit.certificate.neutral.expect("a direction");
+        assert!((x.abs() - 1.0).abs() < 1e-6 && v.abs() < 1e-6, "{a}: {x} {v}");
+        let [x, v, _] = orbit.section[0];
+        assert!((x - (f + 4.0 / 3.0 + a)).abs() < 1e-9 && v.abs() < 1e-9, "{a}: {x} {v}");
+    }
+    // Beside the family a motion sticks, and nears the end of the family.
+    for (a, end) in [(-0.5, -1.0 / 3.0), (0.4, 1.0 / 3.0 - 2.0 * f)] {
+        let orbit = begun(a);
+        assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1), "{a}");
+        let [x, ..] = orbit.section[0];
+        assert!((x - (f + 4.0 / 3.0 + end)).abs() < 1e-4, "{a}: {x}");
+    }
+}
+
 /// One step of the classical Runge-Kutta method of the valve in flight, with its flow `q`.
 fn valve_step([y1, y2, y3]: [f64; 3], h: f64, q: f64) -> [f64; 3] {
     let rate = |[y1, y2, y3]: [f64; 3]| {

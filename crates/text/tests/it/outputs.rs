@@ -224,12 +224,60 @@ fn a_section_of_four_coordinates_has_the_closed_form_of_its_modes() {
     assert!(orbit.certificate.multipliers.iter().all(|it| (it.abs() - decay).abs() < 1e-10));
     let (orbit, _) = settled(row, &[("wall", 0.5)], &[("x1", 0.1)]);
     assert!(output(&orbit, "impact_per_cycle") > 0.0);
-    let many = ["x3", "x4", "x5"].map(|it| format!(", {it} = \"1\""));
-    let states = ROW.replace(", x2 = \"1\"", &format!(", x2 = \"1\"{}", many.concat()));
-    let rates = ["x3", "x4", "x5"].map(|it| format!("{it} = \"-{it}\"\n"));
-    let text = states.replace("[[system.events]]", &format!("{}[[system.events]]", rates.concat()));
-    let faults = model(&text).expect_err("seven coordinates");
-    assert!(faults[0].message.contains("1 to 6"), "{faults:?}");
+}
+
+/// Masses in a row between springs of stiffness 1, the ends held, each with a little damping, the first driven.
+fn row_of(masses: usize) -> String {
+    let all: Vec<usize> = (1..=masses).collect();
+    let joined = |of: &dyn Fn(usize) -> String, between: &str| {
+        all.iter().map(|it| of(*it)).collect::<Vec<_>>().join(between)
+    };
+    let states = joined(&|i| format!("x{i} = \"1\", v{i} = \"1\""), ", ");
+    let beside = |i: usize| match i {
+        i if (1..=masses).contains(&i) => format!(" + x{i}"),
+        _ => String::new(),
+    };
+    let rates = joined(
+        &|i| {
+            let drive = if i == 1 { "cos(w*t)" } else { "0" };
+            let neighbours = [beside(i - 1), beside(i + 1)].concat();
+            format!("x{i} = \"v{i}\"\nv{i} = \"{drive} - 2*x{i} - c*v{i}{neighbours}\"")
+        },
+        "\n",
+    );
+    let mode = |j: usize| {
+        let share = |i: usize| (PI * (i * j) as f64 / (masses + 1) as f64).sin();
+        let sum = joined(&|i| format!("({:e})*x{i}", share(i)), " + ");
+        format!("mode_{j} = \"max({sum})\"")
+    };
+    let outputs = joined(&mode, "\n");
+    format!(
+        "[system]\nname = \"masses in a row\"\nstates = {{ {states} }}\nsection = {{ every = \"2*pi/w\" }}\n\
+         [system.parameters]\nw = 1.3\nc = 0.1\n[system.rates]\n{rates}\n[system.outputs]\n{outputs}\n"
+    )
+}
+
+#[test]
+fn a_section_of_eight_coordinates_has_the_closed_form_of_its_modes() {
+    let (w, c): (f64, f64) = (1.3, 0.1);
+    for masses in [3, 4] {
+        let row = model(&row_of(masses)).expect("a model");
+        let (orbit, _) = settled(row, &[], &[("x1", 0.1)]);
+        assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+        let multipliers = &orbit.certificate.multipliers;
+        assert_eq!((orbit.section[0].len(), multipliers.len()), (2 * masses, 2 * masses));
+        for j in 1..=masses {
+            let angle = PI * j as f64 / (masses + 1) as f64;
+            let stiffness = 2.0 - 2.0 * angle.cos();
+            let amplitude = angle.sin() / (stiffness - w * w).hypot(c * w);
+            let told = output(&orbit, &format!("mode_{j}"));
+            assert!((told - amplitude).abs() < 1e-9 * amplitude, "{told} {amplitude}");
+        }
+        let decay = (-c * PI / w).exp();
+        assert!(multipliers.iter().all(|it| (it.abs() - decay).abs() < 1e-10), "{multipliers:?}");
+    }
+    let faults = model(&row_of(5)).expect_err("ten states");
+    assert!(faults[0].message.contains("more than 8 states"), "{faults:?}");
 }
 
 /// What is measured does not touch the motion: the same bits with outputs and without.

@@ -90,7 +90,7 @@ fn side_by_side<L: Lane, M: Subject<D>, const D: usize>(cases: &[Case<M, D>]) ->
                 let time = step.start.lane(lane) + step.length.lane(lane);
                 course.events.push((event.to_bits(), time.to_bits()));
             }
-            if let Some(breakdown) = motion.breakdown(&system, lane) {
+            if let Some(breakdown) = motion.breakdown(&system, &step, lane) {
                 course.failure = Some(breakdown.into());
             } else if step.arrives.lane(lane) {
                 steps[lane] = 0;
