@@ -5,7 +5,7 @@ pub const WINDOW: usize = 6;
 /// Directions in which an approach is told: of a section with more coordinates the others have died out.
 const DIRECTIONS: usize = 3;
 /// Coordinates of a section at most.
-const MOST: usize = 6;
+const MOST: usize = 8;
 /// The rates must hold from one difference to the next this well.
 const CONSTANCY: f64 = 1e-4;
 /// A direction that adds less than this share to those before it is none of its own.
