@@ -5,47 +5,46 @@ use std::collections::BTreeMap;
 use super::count::{count, counted};
 use super::motion_row::Row;
 use super::robustness::Tolerances;
-use crate::description::Output;
-use crate::tradeoff::Direction;
+use crate::tradeoff::{Direction, GainAndCost};
 
 /// What is best among the motions of a file.
 pub struct Answer {
     /// The file of results.
     pub file: String,
-    /// The output that should be small.
-    pub of: Output,
+    /// The outputs that should be large and small.
+    pub of: GainAndCost,
     /// The motions that are compared.
     pub direction: Direction,
     /// The conditions that its cases, and the motions between them, keep, in the form of [`Condition::normal`](crate::store::Condition::normal).
     pub conditions: Vec<String>,
-    /// The most of the price that may be spent (SI), and the least speed that is wanted [m/s], if they were given. They choose among
+    /// The most of the price that may be spent, and the least gain that is wanted (SI), if they were given. They choose among
     /// the motions of the front and leave none out.
     pub limits: [Option<f64>; 2],
     /// Cases of the file.
     pub cases: usize,
     /// How many take no part, by the reason.
     pub left_out: BTreeMap<String, usize>,
-    /// The speed up to which a motion counts as at rest [m/s], and how many do or move the other way.
+    /// The gain up to which a motion counts as one without gain, as at rest (SI), and how many do or gain the other way.
     pub at_rest: (f64, usize),
     /// What searches between the cases have brought, if there were any.
-    pub refined: Option<Gain>,
+    pub refined: Option<Refined>,
     /// The optima.
     pub named: Vec<Named>,
     /// The Pareto front, by rising price.
     pub front: Vec<Row>,
-    /// The fastest motions, if they are asked for.
+    /// The motions with the most gain, if they are asked for.
     pub top: Vec<Row>,
     /// The tolerances that the motions were judged under, if any.
     pub tolerances: Option<Tolerances>,
     /// Conditions that cannot be judged of a draw, which the counts of draws leave out.
     pub not_judged: Vec<String>,
-    /// The motions of the front, by their places, that are on the front of the prices and speeds that tolerances leave; empty where none are
+    /// The motions of the front, by their places, that are on the front of the prices and gains that tolerances leave; empty where none are
     /// asked for.
     pub robust_front: Vec<usize>,
 }
 
 impl Answer {
-    /// The optima, the front and the fastest, one after the other; a motion may be among several.
+    /// The optima, the front and the motions with the most gain, one after the other; a motion may be among several.
     pub fn rows(&self) -> impl Iterator<Item = &Row> {
         let named = self.named.iter().filter_map(|it| it.row.as_ref());
         named.chain(&self.front).chain(&self.top)
@@ -60,7 +59,7 @@ impl Answer {
 
 /// What a search for motions between the cases has brought.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Gain {
+pub struct Refined {
     /// The searches.
     pub searched: Searched,
     /// Motions that they have led to.
@@ -71,7 +70,7 @@ pub struct Gain {
     /// the direction asked for; none of searches that were kept before.
     pub drawn: Option<[usize; 2]>,
     /// The area that the front of the cases dominates up to the dearest price of both fronts, and that of the whole front, in
-    /// units of speed and price.
+    /// units of gain and price.
     pub hypervolumes: [f64; 2],
 }
 
@@ -85,7 +84,7 @@ pub struct Searched {
     /// Orbits that they have led to and that do not count: plain integration from them does not lead back, or they do not keep the
     /// conditions.
     pub unsettled: usize,
-    /// The directions in which speed was sought.
+    /// The directions in which gain was sought.
     pub directions: Vec<Direction>,
 }
 

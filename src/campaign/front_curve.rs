@@ -6,7 +6,7 @@ use super::error::CampaignError;
 use super::refined_front::Refinement;
 use super::refined_motion::{Led, RefinedMotion};
 use crate::model::Setting;
-use crate::tradeoff::{Goal, best};
+use crate::tradeoff::best;
 
 /// Neighbours on the front differ in price by no more than the range of prices over this.
 const PARTS: f64 = 64.0;
@@ -46,10 +46,11 @@ impl Refinement<'_> {
     /// From motions found, beside or behind the front, to prices over the whole range of it: a family that is behind the front at one price
     /// may be the best at another.
     ///
-    /// The motions are those nearest to the front by the speed at their price, at most `LADDERS`; the prices are `RUNGS` from the
+    /// The motions are those nearest to the front by the gain at their price, at most `LADDERS`; the prices are `RUNGS` from the
     /// cheapest to the dearest of all, each as many times dearer than the one before, and lower ones down to a seventh of the cheapest.
     pub fn ladders<'m>(&self, front: &[(f64, f64)], found: &'m [RefinedMotion]) -> Vec<Gap<'m>> {
-        let known = front.iter().map(|it| it.0).chain(found.iter().map(|it| it.outputs[self.of]));
+        let known = front.iter().map(|it| it.0);
+        let known = known.chain(found.iter().map(|it| it.outputs[self.of.cost]));
         let known = known.filter(|it| it.is_finite() && *it > 0.0);
         let [low, high] =
             known.fold([f64::INFINITY, 0.0_f64], |[low, high], it| [low.min(it), high.max(it)]);
@@ -61,25 +62,25 @@ impl Refinement<'_> {
         let rungs = rungs(low, high);
         let ladders = nearest.into_iter().flat_map(|from| {
             let (below, above): (Vec<f64>, Vec<f64>) =
-                rungs.iter().partition(|rung| **rung < from.outputs[self.of]);
+                rungs.iter().partition(|rung| **rung < from.outputs[self.of.cost]);
             [below.into_iter().rev().collect(), above].map(|prices| Gap { from, prices })
         });
         ladders.filter(|gap| !gap.prices.is_empty()).collect()
     }
 
-    /// The speed of a motion as a share of that of the front of prices and speeds at its price; infinite where the front has none for it.
+    /// The gain of a motion as a share of that of the front of prices and gains at its price; infinite where the front has none for it.
     fn share_of_front(&self, motion: &RefinedMotion, front: &[(f64, f64)]) -> f64 {
-        let price = motion.outputs[self.of];
+        let price = motion.outputs[self.of.cost];
         let last = front.partition_point(|of_front| of_front.0 <= price);
-        let speed = self.direction.of(motion.outputs.speed());
-        last.checked_sub(1).map_or(f64::INFINITY, |last| speed / front[last].1)
+        let gain = self.direction.of(motion.outputs[self.of.gain]);
+        last.checked_sub(1).map_or(f64::INFINITY, |last| gain / front[last].1)
     }
 
     /// The motions that are followed into gaps of the front, in their order; calls `done` after each gap.
     ///
     /// # Method
     ///
-    /// At each price the fastest motion is sought as in [`best`], from the one before. Each gap is by itself: neither threads
+    /// At each price the motion with the most gain is sought as in [`best`], from the one before. Each gap is by itself: neither threads
     /// nor order matter. Where the front is of several families, each is followed beyond where it is the best.
     ///
     /// Fails if the threads cannot be started.
@@ -98,10 +99,10 @@ impl Refinement<'_> {
     /// What is found in a gap depends on this, beside the results.
     fn described_gap(&self, Gap { from, prices }: &Gap<'_>) -> Value {
         let values: Vec<f64> = from.parameters.each().map(|(_, value)| value).collect();
-        self.within_conditions(json!({
+        self.keyed(json!({
             "from": from.from,
             "moving": self.direction.name(),
-            "of": self.of.name(),
+            "of": self.of.cost.name(),
             "parameters": values,
             "at": from.phase,
             "begins_at": from.section,
@@ -118,9 +119,8 @@ impl Refinement<'_> {
         let mut led = Led::default();
         for price in &gap.prices {
             let Some(at) = last else { break };
-            let goal = Goal::Speed { direction: self.direction, budget: Some((self.of, *price)) };
-            let found = best(&family, at, goal);
-            let kept = found.filter(|it| it.at.outputs[self.of] <= price * (1.0 + KEEPS));
+            let found = best(&family, at, self.most(Some(*price)));
+            let kept = found.filter(|it| it.at.outputs[self.of.cost] <= price * (1.0 + KEEPS));
             kept.iter().for_each(|it| led.add(self.settled(&family, it, from.from)));
             last = kept.map(|it| it.at);
         }

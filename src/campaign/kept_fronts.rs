@@ -1,4 +1,5 @@
-//! What kept searches have found, apart by the conditions that they have kept: motions under different conditions make no common front.
+//! What kept searches for a gain have found, apart by the conditions that they have kept: motions under different conditions make no
+//! common front.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -7,10 +8,11 @@ use serde_json::Value;
 
 use super::answer::Searched;
 use super::error::CampaignError;
-use super::kept_searches::KeptSearches;
+use super::kept_searches::{FOR, KeptSearches};
 use super::refined_motion::{RefinedMotion, distinct};
+use crate::description::Output;
 use crate::store::{Archive, CaseTable, Unread, conditions, fulfils};
-use crate::tradeoff::Direction;
+use crate::tradeoff::{Direction, GainAndCost};
 
 /// What searches under the same conditions have found between the cases of a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,14 +55,17 @@ impl KeptFront {
 }
 
 impl KeptSearches {
-    /// What searches have found, apart by their conditions: first what was found without any, if that was sought, then the others in
+    /// What searches for a gain have found, apart by their conditions: first what was found without any, if that was sought, then the others in
     /// the order of their conditions.
     ///
     /// Fails if the file of results cannot be read, or has no more what a condition is on.
-    pub fn fronts(&self, archive: &Archive) -> Result<Vec<KeptFront>, CampaignError> {
+    pub fn fronts(&self, archive: &Archive, gain: Output) -> Result<Vec<KeptFront>, CampaignError> {
         let mut groups: BTreeMap<Vec<String>, Group> = BTreeMap::new();
         for (what, led) in self.each() {
             let what: Value = serde_json::from_str(what).unwrap_or_default();
+            if !is_for(&what, gain) {
+                continue;
+            }
             let conditions = what["where"].as_array().map_or(&[][..], Vec::as_slice);
             let conditions = conditions.iter().filter_map(|it| Some(it.as_str()?.to_owned()));
             let group = groups.entry(conditions.collect()).or_default();
@@ -101,6 +106,14 @@ impl Group {
             },
             motions: distinct(self.found),
         })
+    }
+}
+
+/// Whether a search was for a gain: for that of the model where it names none.
+fn is_for(what: &Value, gain: Output) -> bool {
+    match what[FOR].as_str() {
+        Some(name) => name == gain.name(),
+        None => GainAndCost::own_gain(gain.model()) == Some(gain),
     }
 }
 

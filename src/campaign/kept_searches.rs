@@ -23,6 +23,8 @@ use crate::study::Study;
 const EXTENSION: &str = "searches";
 /// The form of the lines; the number is increased with every change.
 const FORMAT: &str = "capsulemap searches 3";
+/// The key of the gain of a search, which one for the gain that the model names does not have.
+pub(super) const FOR: &str = "for";
 /// How the form begins in every version.
 const ANY_FORMAT: &str = "capsulemap searches ";
 
@@ -136,8 +138,9 @@ impl KeptSearches {
 fn options(what: &str) -> Option<String> {
     let what: Value = serde_json::from_str(what).ok()?;
     let (moving, of) = (what["moving"].as_str()?, what["of"].as_str()?);
+    let gain = what[FOR].as_str().map_or(String::new(), |it| format!(" --for {it}"));
     let conditions = conditions(&what).unwrap_or_default();
-    Some(format!("--direction {moving} --of {of}{conditions}"))
+    Some(format!("--direction {moving} --of {of}{gain}{conditions}"))
 }
 
 /// The option of the conditions that a search has kept.

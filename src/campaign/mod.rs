@@ -44,7 +44,7 @@ pub mod tolerance_draws;
 pub mod trade_off;
 pub mod verify;
 
-pub use answer::{Answer, Gain, Named, Searched};
+pub use answer::{Answer, Named, Refined, Searched};
 pub use error::{CampaignError, Cause};
 pub use in_memory::results_in_memory;
 pub use kept::Kept;

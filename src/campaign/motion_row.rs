@@ -4,14 +4,14 @@ use super::margins::Margins;
 use super::mean_errors::MeanErrors;
 use super::refined_motion::{RefinedMotion, Slopes};
 use super::robustness::Robustness;
-use crate::description::{Description, Output, Section, State};
+use crate::description::{Description, Section, State};
 use crate::motion::Case;
 use crate::of::default_model;
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
 use crate::study::Coordinate;
-use crate::tradeoff::Candidate;
+use crate::tradeoff::{Candidate, GainAndCost};
 
 /// The columns from which the rows are read.
 pub struct Rows {
@@ -32,12 +32,12 @@ pub struct Row {
     pub case: Option<usize>,
     /// Its parameters and start [SI], and whether each varies in the file.
     pub coordinates: Vec<(Coordinate, f64, bool)>,
-    /// Progression speed [m/s].
-    pub speed: f64,
+    /// What it gains, by the output that was asked for [SI].
+    pub gain: f64,
     /// What it costs, by the output that was asked for [SI].
     pub price: f64,
-    /// Energy per metre of progression [J/m].
-    pub energy_per_metre: f64,
+    /// The cost per gain, of a speed the energy per distance [SI].
+    pub per_gain: f64,
     /// The name of its outcome.
     pub outcome: String,
     /// Its period [cycles]; none where it does not repeat.
@@ -105,9 +105,9 @@ impl Rows {
             coordinates: coordinates
                 .map(|(it, values, varies)| (*it, values[case], *varies))
                 .collect(),
-            speed: motion.speed,
+            gain: motion.gain,
             price: motion.price,
-            energy_per_metre: motion.energy_per_metre,
+            per_gain: motion.per_gain,
             outcome: outcome.unwrap_or_default(),
             period: whole(self.periods.as_ref(), case).filter(|period| *period > 0),
             attractor,
@@ -125,17 +125,17 @@ impl Rows {
         self.periods.as_ref().map_or_else(|| vec![0.0; cases], |it| it.values.clone())
     }
 
-    /// What is told of a motion between the cases, whose price is this output.
-    pub fn refined(&self, motion: &RefinedMotion, of: Output, protocol: &Protocol) -> Row {
+    /// What is told of a motion between the cases, with this gain and this cost.
+    pub fn refined(&self, motion: &RefinedMotion, of: GainAndCost, protocol: &Protocol) -> Row {
         let all = self.coordinates.iter();
         Row {
             case: None,
             coordinates: all
                 .map(|(it, _, varies)| (*it, motion.coordinate(*it), *varies))
                 .collect(),
-            speed: motion.outputs.speed(),
-            price: motion.outputs[of],
-            energy_per_metre: motion.outputs[motion.outputs.model().energy_per_distance()],
+            gain: motion.outputs[of.gain],
+            price: motion.outputs[of.cost],
+            per_gain: of.per_gain(&motion.outputs),
             outcome: Outcome::Periodic.name().to_owned(),
             period: Some(motion.period),
             attractor: None,

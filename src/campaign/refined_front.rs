@@ -5,12 +5,12 @@ use serde_json::{Value, json};
 use super::conditions::Conditions;
 use super::conditions_of_draws::OfDraws;
 use super::error::CampaignError;
-use super::kept_searches::KeptSearches;
+use super::kept_searches::{FOR, KeptSearches};
 use super::motion_row::Row;
 use super::refined_motion::{DrawnMotion, Led, RefinedMotion, Slopes, Start, distinct, words};
 use super::replay::Replay;
 use super::report::silent;
-use crate::description::{Output, Outputs, Parameter, Parameters, Section, State};
+use crate::description::{Outputs, Parameter, Parameters, Section, State};
 use crate::model::Setting;
 use crate::motion::Case;
 use crate::of::settle_case;
@@ -19,10 +19,10 @@ use crate::run::{Machine, on_all_threads};
 use crate::store::Archive;
 use crate::study::{Coordinate, Study};
 use crate::tradeoff::{
-    Best, Candidate, Direction, Family, Goal, MOST_FREE, OperatingPoint, best, left,
+    Best, Candidate, Direction, Family, GainAndCost, Goal, MOST_FREE, OperatingPoint, best, left,
 };
 
-/// An orbit that is settled to has the speed and the price of the one that was found to this share.
+/// An orbit that is settled to has the gain and the price of the one that was found to this share.
 const AGREES: f64 = 1e-6;
 /// A motion that is better by less than this share is the case from which it was sought.
 const LEAST_GAIN: f64 = 1e-9;
@@ -58,19 +58,19 @@ pub struct Refinement<'a> {
     pub archive: &'a Archive,
     /// The period of each case; zero where it does not repeat.
     pub periods: Vec<f64>,
-    /// The output that is to be small.
-    pub of: Output,
-    /// The direction in which speed counts.
+    /// The outputs that are to be large and small.
+    pub of: GainAndCost,
+    /// The direction in which the gain counts.
     pub direction: Direction,
     /// A number for each case that differs between kinds of motions; empty where nothing is sought.
     pub kinds: Vec<u64>,
-    /// Speed up to which a motion is at rest [m/s].
+    /// Gain up to which a motion is one without gain, as at rest (SI).
     pub at_rest: f64,
     /// What is asked of motions between the cases.
     pub conditions: Conditions,
     /// What is asked of motions under tolerances.
     pub asked: OfDraws,
-    /// The most of the output that may be spent, if that is given (SI).
+    /// The most of the cost that may be spent, if that is given (SI).
     pub budget: Option<f64>,
     /// Number of the drawing of starts.
     pub seed: u64,
@@ -116,9 +116,9 @@ impl Refinement<'_> {
 
     /// What a search depends on, beside the results.
     fn described(&self, Search { from, goal }: &Search) -> Value {
-        let of = self.of.name();
-        self.within_conditions(match goal {
-            Goal::Speed { direction, budget } => {
+        let of = self.of.cost.name();
+        self.keyed(match goal {
+            Goal::Most { direction, budget, .. } => {
                 let most = budget.map(|(_, most)| most);
                 json!({ "from": from, "moving": direction.name(), "of": of, "most": most })
             }
@@ -129,8 +129,17 @@ impl Refinement<'_> {
         })
     }
 
-    /// What a search depends on, with the conditions if there are any.
-    pub(super) fn within_conditions(&self, mut search: Value) -> Value {
+    /// The goal of the most gain, for no more than a price if one is given.
+    pub(super) fn most(&self, price: Option<f64>) -> Goal {
+        let budget = price.map(|most| (self.of.cost, most));
+        Goal::Most { gain: self.of.gain, direction: self.direction, budget }
+    }
+
+    /// What a search depends on, with the gain if it is not the one that the model names, and with the conditions if there are any.
+    pub(super) fn keyed(&self, mut search: Value) -> Value {
+        if !self.of.has_own_gain() {
+            search[FOR] = json!(self.of.gain.name());
+        }
         if let Some(conditions) = self.conditions.described() {
             search["where"] = conditions;
         }
@@ -198,7 +207,7 @@ impl Refinement<'_> {
     /// # Method
     ///
     /// The motion that starts at the section point is settled twice: as cases are by default, whose outputs are told, and without
-    /// leaps, so that every cycle is integrated. Both must be periodic with the period of the family, and have the speed and the price
+    /// leaps, so that every cycle is integrated. Both must be periodic with the period of the family, and have the gain and the price
     /// of the orbit to 1e-6. Near the loss of its stability an orbit may be too slow for that.
     pub(super) fn settled(
         &self,
@@ -234,20 +243,16 @@ impl Refinement<'_> {
         })
     }
 
-    /// Whether a motion that is settled to has the speed and the price of the one that is known.
+    /// Whether a motion that is settled to has the gain and the price of the one that is known.
     fn agree(&self, told: &Outputs, known: &Outputs) -> bool {
-        [self.study.base.model().speed(), self.of]
-            .iter()
-            .all(|of| (told[*of] - known[*of]).abs() <= AGREES * known[*of].abs())
+        let mut both = self.of.both().into_iter();
+        both.all(|of| (told[of] - known[of]).abs() <= AGREES * known[of].abs())
     }
 
     /// The relative gain from one motion to another.
     fn gain(&self, goal: Goal, [from, to]: [&Outputs; 2]) -> f64 {
         match goal {
-            Goal::Speed { .. } => {
-                let speed = self.study.base.model().speed();
-                to[speed] / from[speed] - 1.0
-            }
+            Goal::Most { gain, .. } => to[gain] / from[gain] - 1.0,
             Goal::Least(output) => 1.0 - to[output] / from[output],
         }
     }
@@ -258,15 +263,15 @@ impl Refinement<'_> {
         Protocol { max_cycles, ..Protocol::with_tolerance(tolerance) }
     }
 
-    /// How speed and price of a case change with the parameters; nothing where it does not repeat.
+    /// How gain and price of a case change with the parameters; nothing where it does not repeat, or where no output of the model has
+    /// derivatives.
     ///
     /// Fails if the file cannot be read or the case cannot be computed again.
     pub fn slopes(&self, candidate: &Candidate) -> Result<Slopes, CampaignError> {
-        let Some((family, at)) = self.family(candidate.case)? else {
-            return Ok(Slopes::default());
-        };
-        let budget = Some((self.of, candidate.price));
-        let goal = Goal::Speed { direction: self.direction, budget };
+        let has_slopes = self.study.base.model().outputs().any(|it| it.is_smooth());
+        let found = if has_slopes { self.family(candidate.case)? } else { None };
+        let Some((family, at)) = found else { return Ok(Slopes::default()) };
+        let goal = self.most(Some(candidate.price));
         let known = (!family.free.is_empty()).then(|| left(&family, &at, goal)).flatten();
         let (stationarity, held_by) = known.unzip();
         Ok(Slopes {
@@ -288,7 +293,7 @@ impl Refinement<'_> {
         Ok(first.map(|first| (family, first)))
     }
 
-    /// Percent of speed and of price per percent of each parameter.
+    /// Percent of gain and of price per percent of each parameter.
     fn sensitivity(
         &self,
         setting: &Setting,
@@ -299,8 +304,8 @@ impl Refinement<'_> {
         let (model, tolerance) = (self.study.model(), self.study.protocol.tolerance);
         each.filter_map(|(parameter, value)| {
             let found = model.sensitivity(setting, &at.section, period, tolerance, parameter)?;
-            let relative = [self.study.base.model().speed(), self.of]
-                .map(|output| value * found.slopes[output] / found.outputs[output]);
+            let relative =
+                self.of.both().map(|output| value * found.slopes[output] / found.outputs[output]);
             Some((parameter, relative))
         })
         .collect()

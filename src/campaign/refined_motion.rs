@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::description::{Output, Outputs, Parameter, Parameters, Section, State};
+use crate::description::{Description, Output, Outputs, Parameter, Parameters, Section, State};
 use crate::study::Coordinate;
-use crate::tradeoff::{Candidate, Family, Hold, Side};
+use crate::tradeoff::{Candidate, Family, GainAndCost, Hold, Side};
 
 /// Said of a motion whose search has not converged.
 const NOT_CONVERGED: &str = "not converged";
@@ -59,13 +59,13 @@ pub struct RefinedMotion {
 }
 
 impl RefinedMotion {
-    /// The motion as one that takes part in a trade-off, under this number and with this output as its price.
-    pub fn candidate(&self, case: usize, of: Output) -> Candidate {
+    /// The motion as one that takes part in a trade-off, under this number and with this gain and this cost.
+    pub fn candidate(&self, case: usize, of: GainAndCost) -> Candidate {
         Candidate {
             case,
-            speed: self.outputs.speed(),
-            price: self.outputs[of],
-            energy_per_metre: self.outputs[self.outputs.model().energy_per_distance()],
+            gain: self.outputs[of.gain],
+            price: self.outputs[of.cost],
+            per_gain: of.per_gain(&self.outputs),
         }
     }
 
@@ -74,10 +74,10 @@ impl RefinedMotion {
         self.slopes.held_by.iter().any(|hold| hold == NOT_CONVERGED)
     }
 
-    /// Whether another motion is this one: in period, speed, work, power and energy per metre.
+    /// Whether another motion is this one: in period and in what motions of the model gain and cost, or, where it names none of that, in
+    /// all outputs with derivatives.
     fn is_same(&self, other: &RefinedMotion) -> bool {
-        let model = self.outputs.model();
-        let told_apart = [model.speed(), model.work(), model.power(), model.energy_per_distance()];
+        let told_apart = told_apart(self.outputs.model());
         let mut both = told_apart.iter().map(|it| (self.outputs[*it], other.outputs[*it]));
         self.period == other.period && both.all(|(a, b)| a == b || (a - b).abs() <= SAME * a.abs())
     }
@@ -94,12 +94,12 @@ impl RefinedMotion {
     }
 }
 
-/// How speed and price of a periodic motion change with the parameters.
+/// How gain and price of a periodic motion change with the parameters.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Slopes {
-    /// Percent of speed and of price per percent of each parameter that is not zero.
+    /// Percent of gain and of price per percent of each parameter that is not zero.
     pub sensitivity: Vec<(Parameter, [f64; 2])>,
-    /// The largest relative slope of speed left at this price, for the whole range of a parameter [-]; none where no parameter
+    /// The largest relative slope of gain left at this price, for the whole range of a parameter [-]; none where no parameter
     /// is free.
     pub stationarity: Option<f64>,
     /// What keeps it from being better, in words.
@@ -127,6 +127,14 @@ impl Led {
 
 /// Motions that agree in these to this share are one.
 const SAME: f64 = 1e-8;
+
+/// The outputs by which motions are told apart.
+fn told_apart(model: &'static Description) -> Vec<Output> {
+    match model.has_trade_off() {
+        true => vec![model.speed(), model.work(), model.power(), model.energy_per_distance()],
+        false => model.outputs().filter(|it| it.is_smooth()).collect(),
+    }
+}
 
 /// The motions without those that another search has led to already; of equal ones that with the least slope left.
 pub fn distinct(found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {

@@ -21,7 +21,7 @@ const STARTS: usize = 8;
 const DRAWN: usize = 24;
 /// Cases of the fronts that remain where the better ones are left out, at most.
 const BEHIND_THE_FRONT: usize = 32;
-/// Cases that are the fastest of their kind in a part of the range of prices, at most.
+/// Cases that gain the most of their kind in a part of the range of prices, at most.
 const OF_EACH_KIND: usize = 32;
 /// Parts of the range of prices, each as many times dearer than the one before.
 const PARTS: usize = 8;
@@ -69,9 +69,9 @@ impl Refinement<'_> {
         let phase = self.study.section_phase;
         let case = Case::at_section(parameters, State::origin(self.study.base.model()), phase);
         let orbit = settle_case(&case, &self.protocol());
-        let speed = self.direction.of(orbit.outputs.speed());
+        let gain = self.direction.of(orbit.outputs[self.of.gain]);
         let counts = orbit.outcome == Outcome::Periodic
-            && speed > self.at_rest
+            && gain > self.at_rest
             && self.conditions.may_begin(&case.parameters, orbit.period);
         counts.then_some(DrawnMotion {
             number,
@@ -87,9 +87,9 @@ impl Refinement<'_> {
     /// # Method
     ///
     /// From each periodic motion of the front, of the fronts behind it, of each kind in each part of the range of prices, and of the
-    /// drawn points: the most speed for no more than its price. From the fastest, from those with the least energy per metre, and from
-    /// some cases drawn by the seed: the most speed and the least energy per metre. Kinds differ in period, attractor or the counts
-    /// of events per cycle.
+    /// drawn points: the most gain for no more than its price. From those with the most gain, from those with the least cost per gain, and
+    /// from some cases drawn by the seed: the most gain and, of a speed, the least energy per distance. Kinds differ in period, attractor
+    /// or the counts of events per cycle.
     pub fn searches(
         &self,
         candidates: &[Candidate],
@@ -99,7 +99,7 @@ impl Refinement<'_> {
         let moving: Vec<usize> = (0..candidates.len())
             .filter(|at| {
                 let it = &candidates[*at];
-                self.is_periodic(it) && self.direction.of(it.speed) > optima.at_rest
+                self.is_periodic(it) && self.direction.of(it.gain) > optima.at_rest
             })
             .collect();
         let mut searches: Vec<Search> = Vec::new();
@@ -117,7 +117,7 @@ impl Refinement<'_> {
         self.periods[candidate.case] > 0.0
     }
 
-    /// The searches for the most speed at the prices of motions.
+    /// The searches for the most gain at the prices of motions.
     fn for_prices(
         &self,
         candidates: &[Candidate],
@@ -132,15 +132,14 @@ impl Refinement<'_> {
         let of_front = of_front.filter(|at| self.is_periodic(&candidates[*at]));
         let of_cases = of_front.chain(behind).chain(self.of_each_kind(candidates, moving));
         let of_cases = of_cases.map(|at| (self.start(&candidates[at]), candidates[at].price));
-        let of_drawn = drawn.iter().map(|it| (self.drawn_start(it), it.outputs[self.of]));
-        let searches = of_cases.chain(of_drawn).map(|(from, price)| {
-            let budget = Some((self.of, price));
-            Search { from, goal: Goal::Speed { direction: self.direction, budget } }
-        });
+        let of_drawn = drawn.iter().map(|it| (self.drawn_start(it), it.outputs[self.of.cost]));
+        let searches = of_cases
+            .chain(of_drawn)
+            .map(|(from, price)| Search { from, goal: self.most(Some(price)) });
         searches.collect()
     }
 
-    /// The searches for the most speed and for the least energy per metre, whatever the price.
+    /// The searches for the most gain, and for the least of what the model has as the cost per gain, whatever the price.
     fn for_extremes(
         &self,
         candidates: &[Candidate],
@@ -148,28 +147,28 @@ impl Refinement<'_> {
         moving: &[usize],
     ) -> Vec<Search> {
         let direction = self.direction;
-        // Each start with its speed and its energy per metre.
+        // Each start with its gain and its cost per gain.
         let mut known: Vec<(Start, f64, f64)> = Vec::new();
         known.extend(moving.iter().map(|&at| {
             let it = &candidates[at];
-            (self.start(it), direction.of(it.speed), it.energy_per_metre)
+            (self.start(it), direction.of(it.gain), it.per_gain)
         }));
         known.extend(drawn.iter().map(|it| {
-            let speed = direction.of(it.outputs.speed());
-            (self.drawn_start(it), speed, it.outputs[it.outputs.model().energy_per_distance()])
+            let gain = direction.of(it.outputs[self.of.gain]);
+            (self.drawn_start(it), gain, self.of.per_gain(&it.outputs))
         }));
         let by_seed: Vec<Start> =
             self.drawn_cases(moving).into_iter().map(|at| self.start(&candidates[at])).collect();
         known.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let fastest: Vec<Start> = known.iter().take(STARTS).map(|it| it.0).collect();
+        let most: Vec<Start> = known.iter().take(STARTS).map(|it| it.0).collect();
         known.sort_by(|a, b| a.2.total_cmp(&b.2));
         let cheapest: Vec<Start> = known.iter().take(STARTS).map(|it| it.0).collect();
-        let faster = Goal::Speed { direction, budget: None };
-        let cheaper = Goal::Least(self.study.base.model().energy_per_distance());
-        let searches =
-            [(fastest, faster), (cheapest, cheaper)].into_iter().flat_map(|(best, goal)| {
-                best.into_iter().chain(by_seed.clone()).map(move |from| Search { from, goal })
-            });
+        // A cost over a gain that is no output of the model is no goal: its least is on the front, along which others are sought.
+        let least = self.of.told_per_gain().map(|output| (cheapest, Goal::Least(output)));
+        let goals = [Some((most, self.most(None))), least].into_iter().flatten();
+        let searches = goals.flat_map(|(best, goal)| {
+            best.into_iter().chain(by_seed.clone()).map(move |from| Search { from, goal })
+        });
         searches.collect()
     }
 
@@ -194,16 +193,16 @@ impl Refinement<'_> {
         let mut gone = first.front.clone();
         let mut found = Vec::new();
         while found.len() < BEHIND_THE_FRONT && !gone.is_empty() {
-            gone.iter().for_each(|&at| left[at].speed = f64::NAN);
+            gone.iter().for_each(|&at| left[at].gain = f64::NAN);
             gone = optima(&left, self.direction, Some(first.at_rest)).front;
             found.extend(&gone);
         }
         found
     }
 
-    /// The fastest motion of each kind in each part of the range of prices: the fastest of each part first.
+    /// The motion with the most gain of each kind in each part of the range of prices: the best of each part first.
     fn of_each_kind(&self, candidates: &[Candidate], moving: &[usize]) -> Vec<usize> {
-        let speeds: Vec<f64> = candidates.iter().map(|it| self.direction.of(it.speed)).collect();
+        let gains: Vec<f64> = candidates.iter().map(|it| self.direction.of(it.gain)).collect();
         // Each with the logarithm of its price.
         let priced = moving.iter().map(|&at| (at, candidates[at].price.ln()));
         let dear: Vec<(usize, f64)> = priced.filter(|(_, price)| price.is_finite()).collect();
@@ -217,7 +216,7 @@ impl Refinement<'_> {
             let part = ((share * PARTS as f64) as usize).min(PARTS - 1);
             let kind = self.kinds.get(candidates[at].case).copied().unwrap_or_default();
             let known = best.entry((part, kind)).or_insert(at);
-            if speeds[at] > speeds[*known] {
+            if gains[at] > gains[*known] {
                 *known = at;
             }
         }
@@ -225,7 +224,7 @@ impl Refinement<'_> {
         for part in 0..PARTS {
             let mut of_part: Vec<usize> =
                 best.iter().filter(|it| it.0.0 == part).map(|it| *it.1).collect();
-            of_part.sort_by(|&a, &b| speeds[b].total_cmp(&speeds[a]).then(a.cmp(&b)));
+            of_part.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]).then(a.cmp(&b)));
             found.extend(of_part.into_iter().enumerate());
         }
         // The best of all parts come first, then the second ones.

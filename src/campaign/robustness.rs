@@ -1,9 +1,9 @@
-//! What tolerances of the parameters leave of a motion: the speed that few draws fall below, and how many keep the motion.
+//! What tolerances of the parameters leave of a motion: the gain that few draws fall below, and how many keep the motion.
 
 use crate::description::Parameter;
 
-/// The share of draws that are slower than the speed told.
-pub const SLOWER: f64 = 0.05;
+/// The share of draws that gain less than what is told.
+pub const LESS: f64 = 0.05;
 
 /// By how much parameters may be off, and how many sets of them are drawn.
 ///
@@ -26,9 +26,9 @@ pub struct Robustness {
     pub draws: usize,
     /// The share of them whose motion, started on the orbit, settles to the same period.
     pub kept: f64,
-    /// The speed that 5 % of the draws fall below [m/s]; negative against the direction asked for, and minus infinity where more of
+    /// The gain that 5 % of the draws fall below (SI); negative against the direction asked for, and minus infinity where more of
     /// them have none.
-    pub speed: f64,
+    pub gain: f64,
     /// The price that 5 % of the draws exceed (SI); infinite where more of them have none.
     pub price: f64,
     /// How many draws keep the conditions that can be judged of a draw, if there are such conditions; one that is undecided or has failed
@@ -43,8 +43,8 @@ pub struct Robustness {
 /// What a draw of a motion under tolerances gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Draw {
-    /// Its speed in the direction asked for [m/s]; not a number where it has none.
-    pub speed: f64,
+    /// Its gain in the direction asked for (SI); not a number where it has none.
+    pub gain: f64,
     /// Its price (SI); not a number where it has none.
     pub price: f64,
     /// Whether it settles to the same period.
@@ -80,7 +80,7 @@ impl Robustness {
         Robustness {
             draws,
             kept: kept as f64 / draws as f64,
-            speed: low_quantile(all.iter().map(|draw| draw.speed)),
+            gain: low_quantile(all.iter().map(|draw| draw.gain)),
             price: -low_quantile(all.iter().map(|draw| -draw.price)),
             meet_conditions: counted(all, |draw| draw.meets_conditions),
             within_budget: counted(all, |draw| draw.is_within_budget),
@@ -95,7 +95,7 @@ fn low_quantile(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     let draws = values.len();
-    let rank = ((SLOWER * draws as f64).ceil() as usize).clamp(1, draws.max(1)) - 1;
+    let rank = ((LESS * draws as f64).ceil() as usize).clamp(1, draws.max(1)) - 1;
     values.get(rank).copied().unwrap_or(f64::NAN)
 }
 
@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn quantiles_are_draws_and_those_without_a_value_are_the_worst() {
         let draw = |number: u32| Draw {
-            speed: f64::from(number),
+            gain: f64::from(number),
             price: f64::from(number),
             is_kept: number <= 90,
             meets_conditions: Some(number <= 60),
@@ -120,19 +120,19 @@ mod tests {
         };
         let draws: Vec<Draw> = (1..=100).rev().map(draw).collect();
         let found = Robustness::of(&draws);
-        assert_eq!((found.speed, found.price, found.kept), (5.0, 96.0, 0.9));
+        assert_eq!((found.gain, found.price, found.kept), (5.0, 96.0, 0.9));
         let counts = [found.meet_conditions, found.within_budget, found.meet_both];
         assert_eq!(counts, [Some(60), Some(50), Some(10)]);
-        let failed = |draw: &Draw| match draw.speed > 95.0 {
-            true => Draw { speed: f64::NAN, price: f64::NAN, meets_conditions: None, ..*draw },
+        let failed = |draw: &Draw| match draw.gain > 95.0 {
+            true => Draw { gain: f64::NAN, price: f64::NAN, meets_conditions: None, ..*draw },
             false => Draw { meets_conditions: None, ..*draw },
         };
         let with_failures: Vec<Draw> = draws.iter().map(failed).collect();
         let found = Robustness::of(&with_failures);
-        assert_eq!((found.speed, found.price), (f64::NEG_INFINITY, f64::INFINITY));
+        assert_eq!((found.gain, found.price), (f64::NEG_INFINITY, f64::INFINITY));
         let counts = [found.meet_conditions, found.within_budget, found.meet_both];
         assert_eq!(counts, [None, Some(50), None]);
-        assert_eq!(Robustness::of(&draws[98..99]).speed, 2.0);
+        assert_eq!(Robustness::of(&draws[98..99]).gain, 2.0);
     }
 
     #[test]

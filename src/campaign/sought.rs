@@ -19,7 +19,7 @@ pub(super) struct Sought {
     pub motions: Vec<RefinedMotion>,
 }
 
-/// The front of the cases and of motions between them: prices and speeds, and its motions where they are refined ones.
+/// The front of the cases and of motions between them: prices and gains, and its motions where they are refined ones.
 struct Front<'m> {
     points: Vec<(f64, f64)>,
     motions: Vec<Option<&'m RefinedMotion>>,

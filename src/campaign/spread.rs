@@ -14,7 +14,7 @@ use crate::of::settle_case;
 use crate::run::{Machine, on_all_threads};
 
 impl Refinement<'_> {
-    /// The standard errors of speed and price of each of some cases that do not repeat; none of those that could not be followed.
+    /// The standard errors of gain and price of each of some cases that do not repeat; none of those that could not be followed.
     ///
     /// # Method
     ///
@@ -42,9 +42,9 @@ impl Refinement<'_> {
         let (case, protocol) = (replay.as_run(Machine::single(), &silent)?, replay.protocol());
         let end = settle_case(&case, protocol).end;
         Ok(outputs_of_batches(&case, &end, protocol).map(|batches| {
-            let [speeds, prices] = [self.study.base.model().speed(), self.of]
-                .map(|of| batches.iter().map(|it| it[of]).collect::<Vec<f64>>());
-            MeanErrors::of(&speeds, &prices)
+            let [gains, prices] =
+                self.of.both().map(|of| batches.iter().map(|it| it[of]).collect::<Vec<f64>>());
+            MeanErrors::of(&gains, &prices)
         }))
     }
 }

@@ -12,7 +12,7 @@ use crate::of::settle_case;
 use crate::orbit::Outcome;
 use crate::run::on_all_threads;
 use crate::store::takes_part;
-use crate::tradeoff::front;
+use crate::tradeoff::{Optimum, front};
 
 impl Refinement<'_> {
     /// What tolerances leave of each of some motions, none where it does not repeat; calls `done` after each motion.
@@ -63,10 +63,10 @@ impl Refinement<'_> {
         let counts = takes_part(orbit.outcome.name());
         let outputs =
             if counts { orbit.outputs.clone() } else { Outputs::unknown(self.study.base.model()) };
-        let price = outputs[self.of];
+        let price = outputs[self.of.cost];
         let meets = self.asked.met(&case.parameters, &orbit);
         Draw {
-            speed: self.direction.of(outputs.speed()),
+            gain: self.direction.of(outputs[self.of.gain]),
             price,
             is_kept: orbit.outcome == Outcome::Periodic && orbit.period == motion.period,
             meets_conditions: meets.map(|it| it && counts),
@@ -89,19 +89,19 @@ pub(super) fn judge(
         refinement.robustness(&rows, tolerances, threads, || reports.step(Stage::Drawing))?;
     reports.send(Event::Ended(Stage::Drawing))?;
     answer.rows_mut().zip(found).for_each(|(row, robustness)| row.robustness = robustness);
-    let (mut places, mut prices, mut speeds) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut places, mut prices, mut gains) = (Vec::new(), Vec::new(), Vec::new());
     for (place, row) in answer.front.iter().enumerate() {
-        let robustness = row.robustness.filter(|it| it.speed > answer.at_rest.0);
-        if let Some(Robustness { price, speed, .. }) = robustness.filter(|it| it.price.is_finite())
-        {
+        let robustness = row.robustness.filter(|it| it.gain > answer.at_rest.0);
+        if let Some(Robustness { price, gain, .. }) = robustness.filter(|it| it.price.is_finite()) {
             places.push(place);
             prices.push(price);
-            speeds.push(speed);
+            gains.push(gain);
         }
     }
-    answer.robust_front = front(&prices, &speeds).into_iter().map(|at| places[at]).collect();
-    // The front of rising prices ends with the fastest.
-    let fastest = answer.robust_front.last().map(|&place| answer.front[place].clone());
-    answer.named.push(Named { name: "fastest_under_tolerances", row: fastest });
+    answer.robust_front = front(&prices, &gains).into_iter().map(|at| places[at]).collect();
+    // The front of rising prices ends with the most gain.
+    let most = answer.robust_front.last().map(|&place| answer.front[place].clone());
+    let name = Optimum::MostUnderTolerances.name(answer.of);
+    answer.named.push(Named { name, row: most });
     Ok(())
 }

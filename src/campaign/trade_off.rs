@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::answer::{Answer, Gain, Named};
+use super::answer::{Answer, Named, Refined};
 use super::bounding::bound;
 use super::conditions::{Conditions, normal};
 use super::conditions_of_draws::OfDraws;
@@ -20,11 +20,11 @@ use super::sought::Sought;
 use super::spread::add_errors;
 use super::study_source::study_of;
 use super::tolerance_draws::judge;
-use crate::description::Output;
 use crate::store::{Archive, CaseTable, Condition, Unread, candidates, conditions};
 use crate::study::Study;
 use crate::tradeoff::{
-    Candidate, Direction, MOST_FREE, Optima, fastest_first, hypervolume, optima as best_of,
+    Candidate, Direction, GainAndCost, MOST_FREE, Optima, Optimum, hypervolume, most_first,
+    optima as best_of,
 };
 
 /// What is asked of the motions of a file.
@@ -34,19 +34,19 @@ pub struct TradeOff<'a> {
     pub archive: &'a Archive,
     /// Their file, as it is shown.
     pub file: &'a Path,
-    /// The output that should be small.
-    pub of: Output,
+    /// The outputs that should be large and small.
+    pub of: GainAndCost,
     /// The motions that are compared.
     pub direction: Direction,
     /// Conditions on the cases.
     pub conditions: Option<&'a str>,
-    /// Speed up to which a motion counts as at rest [m/s]; a millionth of the fastest by default.
+    /// Gain up to which a motion counts as one without gain, as at rest (SI); by default see [`GainAndCost::at_rest`].
     pub at_rest: Option<f64>,
-    /// Most of the output that may be spent.
+    /// Most of the cost that may be spent.
     pub budget: Option<f64>,
-    /// Least speed that is wanted [m/s].
-    pub speed: Option<f64>,
-    /// How many of the fastest are told.
+    /// Least gain that is wanted (SI).
+    pub least_gain: Option<f64>,
+    /// How many of those with the most gain are told.
     pub top: usize,
     /// Whether the slopes of cases are told, too, for which their orbits are computed again.
     pub slopes: bool,
@@ -117,7 +117,9 @@ impl TradeOff<'_> {
         let study = self.needs_orbits().then(|| study_of(self.archive, self.file)).transpose()?;
         let none = KeptSearches::default();
         let between = self.between_cases(&conditions)?;
-        let optima = best_of(&found.all, self.direction, self.at_rest);
+        let gains = found.all.iter().map(|it| it.gain);
+        let at_rest = self.at_rest.unwrap_or_else(|| self.of.at_rest(gains));
+        let optima = best_of(&found.all, self.direction, Some(at_rest));
         let is_sought = matches!(self.between, Between::Sought { .. });
         let kinds = is_sought.then(|| kinds(&table)).transpose()?;
         let asked = Asked {
@@ -165,19 +167,21 @@ impl TradeOff<'_> {
 
     /// What is asked of motions between the cases, if they are sought.
     ///
-    /// Fails if the conditions cannot be kept between the cases, or the price is not one that a search can make less.
+    /// Fails if the conditions cannot be kept between the cases, or gain or price have no derivatives for a search to follow.
     fn between_cases(&self, conditions: &[Condition]) -> Result<Conditions, CampaignError> {
         if !matches!(self.between, Between::Sought { .. }) {
             return Ok(Conditions::default());
         }
-        let found = Conditions::of(conditions, self.of.model());
-        let of = self.of.name();
-        let price = (!self.of.is_smooth())
-            .then(|| format!("`{of}` has no derivatives in the parameters; `--refine` needs them"));
-        match (found, price) {
-            (Ok(found), None) => Ok(found),
-            (found, price) => {
-                let faults = found.err().into_iter().flatten().chain(price).collect();
+        let found = Conditions::of(conditions, self.of.cost.model());
+        let rough = self.of.both().into_iter().filter(|it| !it.is_smooth());
+        let rough = rough.map(|it| {
+            format!("`{}` has no derivatives in the parameters; `--refine` needs them", it.name())
+        });
+        let rough: Vec<String> = rough.collect();
+        match found {
+            Ok(found) if rough.is_empty() => Ok(found),
+            found => {
+                let faults = found.err().into_iter().flatten().chain(rough).collect();
                 Err(CampaignError::TradeOff { path: self.file.to_owned(), faults })
             }
         }
@@ -191,18 +195,18 @@ impl TradeOff<'_> {
 
     /// The optima that are asked for, each by its place among all motions.
     fn named(&self, best: &Optima, all: &[Candidate]) -> Vec<(&'static str, Option<usize>)> {
-        let mut named = vec![
-            ("fastest", best.fastest),
-            ("knee", best.knee),
-            ("lowest_cost_of_transport", best.lowest_cost_of_transport),
+        let mut found = vec![
+            (Optimum::MostGain, best.most_gain),
+            (Optimum::Knee, best.knee),
+            (Optimum::LeastPerGain, best.least_per_gain),
         ];
         if let Some(most) = self.budget {
-            named.push(("fastest_within_budget", best.fastest_within(all, most)));
+            found.push((Optimum::MostWithinBudget, best.most_within(all, most)));
         }
-        if let Some(least) = self.speed {
-            named.push(("least_for_speed", best.least_for(all, self.direction, least)));
+        if let Some(least) = self.least_gain {
+            found.push((Optimum::LeastForGain, best.least_for(all, self.direction, least)));
         }
-        named
+        found.into_iter().map(|(optimum, at)| (optimum.name(self.of), at)).collect()
     }
 
     fn refinement<'r>(
@@ -292,17 +296,17 @@ impl Motions<'_> {
         let Motions { asked, all, .. } = self;
         let request = asked.request;
         let best = best_of(all, request.direction, Some(asked.optima.at_rest));
-        let moving = fastest_first(all, request.direction, best.at_rest);
+        let moving = most_first(all, request.direction, best.at_rest);
         Ok(Answer {
             file: request.file.display().to_string(),
             of: request.of,
             direction: request.direction,
             conditions: asked.conditions.clone(),
-            limits: [request.budget, request.speed],
+            limits: [request.budget, request.least_gain],
             cases: asked.cases,
             left_out: BTreeMap::new(),
             at_rest: (best.at_rest, all.len() - moving.len()),
-            refined: sought.map(|sought| self.gain(sought, &best)),
+            refined: sought.map(|sought| self.refined(sought, &best)),
             named: self.named(&best)?,
             front: self.rows(&best.front)?,
             top: self.rows(&moving[..moving.len().min(request.top)])?,
@@ -316,10 +320,10 @@ impl Motions<'_> {
     }
 
     /// What searches have brought, if these are the best of all motions.
-    fn gain(&self, sought: &Sought, best: &Optima) -> Gain {
+    fn refined(&self, sought: &Sought, best: &Optima) -> Refined {
         let Motions { asked, between, all } = self;
         let fronts = [(&asked.optima, asked.candidates), (best, &all[..])];
-        Gain {
+        Refined {
             searched: sought.searched.clone(),
             drawn: sought.drawn,
             found: between.len(),
@@ -362,7 +366,7 @@ fn with_refined(
     cases: usize,
     candidates: &[Candidate],
     motions: &[RefinedMotion],
-    of: Output,
+    of: GainAndCost,
 ) -> Vec<Candidate> {
     let numbered = motions.iter().enumerate();
     let refined = numbered.map(|(place, motion)| motion.candidate(cases + place, of));

@@ -8,11 +8,11 @@ use super::failure::Failure;
 use crate::campaign::quoted;
 use crate::description::{Description, Output};
 use crate::lane::Instructions;
-use crate::quantity::printable::printable;
 use crate::quantity::{Dimension, parse_quantity};
 use crate::run::Machine;
 use crate::store::Archive;
 use crate::study::document::unknown;
+use crate::tradeoff::GainAndCost;
 
 /// What to run on, as far as this machine has it.
 pub fn machine(
@@ -46,30 +46,51 @@ pub fn named<T: Copy + Send + Sync + 'static>(
     })
 }
 
-/// The model of results, of which motions gain something that has a cost.
-///
-/// Fails where they do not.
-pub fn with_trade_off(archive: &Archive) -> Result<&'static Description, Failure> {
+/// The output of results that `--of` names as the cost; the power if it names none and the model has one.
+pub fn cost(archive: &Archive, name: Option<&str>) -> Result<Output, String> {
     let model = archive.frame().model();
-    match model.has_trade_off() {
-        true => Ok(model),
-        false => Err(Failure::request(format!(
-            "{}: {}",
-            printable(archive.path()),
-            model.without_trade_off()
-        ))),
+    match name {
+        Some(name) => output("--of", name, model),
+        None if model.has_trade_off() => Ok(model.power()),
+        None => Err(unnamed(archive, "--of", "cost", "small")),
     }
 }
 
-/// The output of a model that an option names; its power if it names none.
-pub fn price(
-    option: &str,
-    name: Option<&str>,
-    model: &'static Description,
-) -> Result<Output, String> {
-    let Some(name) = name else { return Ok(model.power()) };
+/// The output of results that `--for` names as the gain; the speed if it names none and the model has one.
+pub fn gain(archive: &Archive, name: Option<&str>) -> Result<Output, String> {
+    let model = archive.frame().model();
+    match name {
+        Some(name) => output("--for", name, model),
+        None => {
+            GainAndCost::own_gain(model).ok_or_else(|| unnamed(archive, "--for", "gain", "large"))
+        }
+    }
+}
+
+/// The output of a model that an option names.
+fn output(option: &str, name: &str, model: &'static Description) -> Result<Output, String> {
     let names = model.outputs().map(|output| output.name());
     model.output(name).ok_or_else(|| format!("{option}: {}", unknown("output", name, names)))
+}
+
+/// What is said where a model has no gain or cost of its own, and no option names one.
+fn unnamed(archive: &Archive, option: &str, what: &str, size: &str) -> String {
+    let model = archive.frame().model();
+    let kept = model.outputs().map(|it| it.name()).filter(|it| archive.unit(it).is_some());
+    format!(
+        "{option}: missing; the model {} names no {what} of its own, so name the output that should be {size} (allowed: {})",
+        model.name,
+        kept.collect::<Vec<_>>().join(", ")
+    )
+}
+
+/// A gain against a cost; an output against itself is refused, but for the gain that the model names.
+pub fn held(gain: Output, cost: Output) -> Result<GainAndCost, String> {
+    let of = GainAndCost { gain, cost };
+    match gain == cost && !of.has_own_gain() {
+        true => Err(format!("--for: `{}` is the output of --of, too; name another", gain.name())),
+        false => Ok(of),
+    }
 }
 
 /// What follows a command in a hint, so that it runs as it is printed: the study, and the output where it was given.

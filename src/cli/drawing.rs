@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::terminal::notify;
 use crate::campaign::{KeptFront, KeptSearches, searches_path, study_of};
 use crate::figure::{
-    FigureError, Files, Format, Measured, Needs, Place, Shown, draw, needs, variables,
+    FigureError, Files, Format, Measured, Needs, Place, Shown, draw, gain_of, needs, variables,
 };
 use crate::quantity::printable::printable;
 use crate::store::{Archive, Dataset, StoreError, has_branches, has_cases};
@@ -60,24 +60,24 @@ pub fn draw_each(
     for drawing in drawings {
         let shown = variables(drawing, archive.frame().model());
         let dataset = archive.labelled(|name| shown.contains(name)).map_err(Failure::machine)?;
-        let refined = if drawing.kind.keys().between { refined(archive)? } else { Vec::new() };
+        let refined =
+            if drawing.kind.keys().between { refined(archive, drawing)? } else { Vec::new() };
         let shown = Shown { dataset: &dataset, refined: &refined, measured };
         failures.extend(draw_all(shown, std::slice::from_ref(drawing), place).err());
     }
     Failure::all(failures).map_or(Ok(()), Err)
 }
 
-/// What refinements have found between the cases of a file.
-fn refined(archive: &Archive) -> Result<Vec<KeptFront>, Failure> {
+/// What refinements for the gain of a figure have found between the cases of a file.
+fn refined(archive: &Archive, drawing: &Drawing) -> Result<Vec<KeptFront>, Failure> {
     let path = searches_path(archive.path());
-    if !path.exists() {
-        return Ok(Vec::new());
-    }
+    let gain = gain_of(drawing, archive.frame().model()).filter(|_| path.exists());
+    let Some(gain) = gain else { return Ok(Vec::new()) };
     let study = study_of(archive, archive.path())?;
     match KeptSearches::read(archive, &study) {
         Ok(kept) => {
             kept.damage(archive).iter().for_each(|it| notify(it));
-            Ok(kept.fronts(archive)?)
+            Ok(kept.fronts(archive, gain)?)
         }
         Err(error) => {
             notify(&format!("{error}; they are not shown"));

@@ -27,6 +27,7 @@ const EXAMPLES: &str = "\
 Examples:
   capsulemap figure results/overview/overview.h5
   capsulemap figure FILE.h5 --kind map --of period --x omega --formats pdf
+  capsulemap figure FILE.h5 --kind trade-off --of work,amplitude
   capsulemap figure FILE.h5 --kind bifurcation --at \"p_d=4 N\" --name at-4-newton";
 
 /// Draw the figures that the study asks for, or one of your own.
@@ -38,7 +39,7 @@ pub struct Figure {
     /// Kind of figure; without it, the figures of the study are drawn.
     #[arg(long, value_parser = named(DrawingKind::NAMES))]
     kind: Option<DrawingKind>,
-    /// Outputs to draw.
+    /// Outputs to draw; of a trade-off the cost, then the gain.
     #[arg(long, value_delimiter = ',', requires = "kind")]
     of: Vec<String>,
     /// Axis along the abscissa.

@@ -105,7 +105,7 @@ enum Command {
     Continue(continuation::Continue),
     /// Draw figures from a file of results.
     Figure(Box<figure::Figure>),
-    /// Find the fastest motions for the least energy in a file of results.
+    /// Find the fastest motions for the least energy in a file of results, or the most of one output for the least of another.
     Tradeoff(tradeoff::Tradeoff),
     /// Write what a file of results says as one page for a browser.
     Report(report::Report),

@@ -20,16 +20,21 @@ pub fn csv(answer: &Answer) -> String {
 /// What the columns are called, by the first of the motions.
 fn header(answer: &Answer, first: &Row) -> Vec<&'static str> {
     let names = first.coordinates.iter().map(|(it, ..)| it.name());
-    let fixed = ["what", "case", answer.of.model().speed().name(), answer.of.name()];
+    let of = answer.of;
+    let fixed = ["what", "case", of.gain.name(), of.cost.name()];
     let rest = [OUTCOME.name, PERIOD.name, ATTRACTOR.name, "share"];
+    let [error, least] = match of.has_own_gain() {
+        true => ["standard_error_of_speed", "speed_of_slowest_5_percent"],
+        false => ["standard_error_of_gain", "gain_of_least_5_percent"],
+    };
     let more = [
-        answer.of.model().energy_per_distance().name(),
-        "standard_error_of_speed",
+        of.told_per_gain().map_or("cost_per_gain", |it| it.name()),
+        error,
         "standard_error_of_price",
         "held_by",
         "stationarity",
         "kept",
-        "speed_of_slowest_5_percent",
+        least,
         "price_of_dearest_5_percent",
         "draws",
         "meet_conditions",
@@ -45,7 +50,7 @@ fn cells(what: &str, row: &Row) -> Vec<String> {
     let mut cells = vec![
         what.to_owned(),
         optional(row.case),
-        format!("{:?}", row.speed),
+        format!("{:?}", row.gain),
         format!("{:?}", row.price),
         row.outcome.clone(),
         optional(row.period),
@@ -54,8 +59,8 @@ fn cells(what: &str, row: &Row) -> Vec<String> {
     ];
     cells.extend(row.coordinates.iter().map(|(_, value, _)| format!("{value:?}")));
     cells.extend([
-        format!("{:?}", row.energy_per_metre),
-        optional(row.errors.map(|it| it.speed)),
+        format!("{:?}", row.per_gain),
+        optional(row.errors.map(|it| it.gain)),
         optional(row.errors.map(|it| it.price)),
         row.slopes.held_by.join("; "),
         optional(row.slopes.stationarity),
@@ -70,7 +75,7 @@ fn cells(what: &str, row: &Row) -> Vec<String> {
 fn cells_of_draws(it: &Robustness) -> [String; 7] {
     [
         it.kept.to_string(),
-        it.speed.to_string(),
+        it.gain.to_string(),
         it.price.to_string(),
         it.draws.to_string(),
         optional(it.meet_conditions),

@@ -3,27 +3,35 @@
 use serde_json::{Map, Value, json};
 
 use crate::campaign::{
-    Answer, Gain, Margin, MarginEnd, Named, Robustness, Row, Slopes, Tolerances,
+    Answer, Margin, MarginEnd, Named, Refined, Robustness, Row, Slopes, Tolerances,
 };
-use crate::description::{Output, Parameter};
+use crate::description::Parameter;
 use crate::store::catalogue::{ATTRACTOR, OUTCOME, PERIOD};
 use crate::study::Coordinate;
+use crate::tradeoff::GainAndCost;
 
 /// One JSON object.
 pub fn json(answer: &Answer) -> Value {
     let of = answer.of;
     let mut object = Map::new();
-    object.insert("of".to_owned(), json!(of.name()));
+    let [at_rest, least] = match of.has_own_gain() {
+        true => ["speed_at_rest", "least_speed"],
+        false => ["gain_at_rest", "least_gain"],
+    };
+    object.insert("of".to_owned(), json!(of.cost.name()));
+    if !of.has_own_gain() {
+        object.insert("for".to_owned(), json!(of.gain.name()));
+    }
     object.insert("moving".to_owned(), json!(answer.direction.name()));
     object.insert("cases".to_owned(), json!(answer.cases));
     object.insert("left_out".to_owned(), json!(answer.left_out));
-    object.insert("speed_at_rest".to_owned(), json!(answer.at_rest.0));
+    object.insert(at_rest.to_owned(), json!(answer.at_rest.0));
     object.insert("where".to_owned(), json!(answer.conditions));
-    let [budget, least_speed] = answer.limits;
+    let [budget, least_gain] = answer.limits;
     object.insert("budget".to_owned(), json!(budget));
-    object.insert("least_speed".to_owned(), json!(least_speed));
-    if let Some(gain) = &answer.refined {
-        object.insert("refined".to_owned(), json_of_gain(gain));
+    object.insert(least.to_owned(), json!(least_gain));
+    if let Some(refined) = &answer.refined {
+        object.insert("refined".to_owned(), json_of_refined(refined));
     }
     object.insert("front".to_owned(), json_of_rows(&answer.front, of));
     for Named { name, row } in &answer.named {
@@ -42,8 +50,8 @@ pub fn json(answer: &Answer) -> Value {
 }
 
 /// What searches between the cases have brought.
-fn json_of_gain(gain: &Gain) -> Value {
-    let Gain { searched, found, seed, drawn, hypervolumes: [of_cases, whole] } = gain;
+fn json_of_refined(refined: &Refined) -> Value {
+    let Refined { searched, found, seed, drawn, hypervolumes: [of_cases, whole] } = refined;
     json!({
         "scope": "local",
         "searches": searched.searches,
@@ -73,24 +81,26 @@ fn json_of_tolerances(tolerances: &Tolerances, not_judged: &[String]) -> Value {
     })
 }
 
-fn json_of_rows(rows: &[Row], of: Output) -> Value {
+fn json_of_rows(rows: &[Row], of: GainAndCost) -> Value {
     Value::Array(rows.iter().map(|row| json_of_row(row, of)).collect())
 }
 
-/// A motion, whose price is an output.
-fn json_of_row(row: &Row, of: Output) -> Value {
+/// A motion, with this gain and this cost.
+fn json_of_row(row: &Row, of: GainAndCost) -> Value {
     let (parameters, start): (Vec<_>, Vec<_>) =
         row.coordinates.iter().partition(|(it, ..)| matches!(it, Coordinate::Parameter(_)));
-    let (model, mut point) = (of.model(), Map::new());
+    let [gain, cost] = of.both().map(|it| it.name().to_owned());
+    let mut point = Map::new();
     point.insert("case".to_owned(), json!(row.case));
     point.insert("parameters".to_owned(), json_of_coordinates(&parameters));
     point.insert("start".to_owned(), json_of_coordinates(&start));
-    point.insert(model.speed().name().to_owned(), json!(row.speed));
-    point.insert(model.energy_per_distance().name().to_owned(), json!(row.energy_per_metre));
-    point.insert(of.name().to_owned(), json!(row.price));
+    let per_gain = of.told_per_gain().map_or("cost_per_gain", |it| it.name());
+    point.insert(gain.clone(), json!(row.gain));
+    point.insert(per_gain.to_owned(), json!(row.per_gain));
+    point.insert(cost.clone(), json!(row.price));
     let errors = row.errors.map(|it| {
-        let speed = (model.speed().name().to_owned(), json!(it.speed));
-        Value::Object([speed, (of.name().to_owned(), json!(it.price))].into_iter().collect())
+        let both = [(gain.clone(), json!(it.gain)), (cost.clone(), json!(it.price))];
+        Value::Object(both.into_iter().collect())
     });
     point.insert("standard_errors".to_owned(), json!(errors));
     point.insert(PERIOD.name.to_owned(), json!(row.period));
@@ -100,11 +110,12 @@ fn json_of_row(row: &Row, of: Output) -> Value {
     let Slopes { sensitivity, stationarity, held_by } = &row.slopes;
     point.insert("held_by".to_owned(), json!(held_by));
     point.insert("stationarity".to_owned(), json!(stationarity));
-    let of_speed = sensitivity.iter().map(|(it, [speed, _])| (*it, *speed));
-    point.insert("sensitivity".to_owned(), by_symbol(of_speed));
+    let of_gain = sensitivity.iter().map(|(it, [gain, _])| (*it, *gain));
+    point.insert("sensitivity".to_owned(), by_symbol(of_gain));
     let of_price = sensitivity.iter().map(|(it, [_, price])| (*it, *price));
-    point.insert(format!("sensitivity_of_{}", of.name()), by_symbol(of_price));
-    point.insert("robustness".to_owned(), json!(row.robustness.as_ref().map(json_of_robustness)));
+    point.insert(format!("sensitivity_of_{cost}"), by_symbol(of_price));
+    let robustness = row.robustness.as_ref().map(|it| json_of_robustness(it, of));
+    point.insert("robustness".to_owned(), json!(robustness));
     if !row.margins.is_empty() {
         let margins = row.margins.iter().map(|it| {
             let both = json!({ "down": margin(&it.down), "up": margin(&it.up) });
@@ -127,11 +138,15 @@ fn by_symbol(all: impl Iterator<Item = (Parameter, f64)>) -> Value {
     Value::Object(all.map(|(it, value)| (it.symbol().to_owned(), json!(value))).collect())
 }
 
-fn json_of_robustness(it: &Robustness) -> Value {
+fn json_of_robustness(it: &Robustness, of: GainAndCost) -> Value {
+    let gain = match of.has_own_gain() {
+        true => "speed_of_slowest_5_percent",
+        false => "gain_of_least_5_percent",
+    };
     json!({
         "draws": it.draws,
         "kept": it.kept,
-        "speed_of_slowest_5_percent": it.speed,
+        (gain): it.gain,
         "price_of_dearest_5_percent": it.price,
         "meet_conditions": it.meet_conditions,
         "within_budget": it.within_budget,

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::readable::{count, counted};
 use crate::campaign::{Answer, Robustness, Row, Searched, Tolerances};
+use crate::tradeoff::unit_behind;
 
 /// How many points were drawn as starts, and what was found and does not count.
 pub fn write_starts(text: &mut String, searched: &Searched, drawn: Option<[usize; 2]>) {
@@ -57,17 +58,27 @@ pub fn counts_of_draws(robustness: &Robustness) -> String {
     told.concat()
 }
 
-/// What may be spent and what speed is wanted, which choose motions of the front.
+/// What may be spent and what gain is wanted, which choose motions of the front.
 pub fn write_limits(text: &mut String, answer: &Answer) {
-    let [budget, speed] = answer.limits;
+    let of = answer.of;
+    let [budget, least_gain] = answer.limits;
     if let Some(most) = budget {
-        let (of, unit) = (answer.of.name(), answer.of.unit());
+        let unit = match of.has_own_gain() {
+            true => format!(" {}", of.cost.unit()),
+            false => unit_behind(of.cost),
+        };
         let kept = of_the_front(answer, |row| row.price <= most);
-        let _ = writeln!(text, "budget: {of} of {most:e} {unit} at most, {kept}");
+        let _ = writeln!(text, "budget: {} of {most:e}{unit} at most, {kept}", of.cost.name());
     }
-    if let Some(least) = speed {
-        let kept = of_the_front(answer, |row| answer.direction.of(row.speed) >= least);
-        let _ = writeln!(text, "speed wanted: {} mm/s at least, {kept}", 1e3 * least);
+    if let Some(least) = least_gain {
+        let kept = of_the_front(answer, |row| answer.direction.of(row.gain) >= least);
+        let wanted = match of.has_own_gain() {
+            true => format!("speed wanted: {} mm/s", 1e3 * least),
+            false => {
+                format!("gain wanted: {} of {least:e}{}", of.gain.name(), unit_behind(of.gain))
+            }
+        };
+        let _ = writeln!(text, "{wanted} at least, {kept}");
     }
 }
 

@@ -4,15 +4,15 @@ use std::fmt::Write;
 
 use super::optima_notes::{counts_of_draws, write_limits, write_starts, write_tolerances};
 use super::readable::{count, counted};
-use crate::campaign::{Answer, Gain, Named, Row};
-use crate::tradeoff::Direction;
+use crate::campaign::{Answer, Named, Refined, Row};
+use crate::tradeoff::{Direction, GainAndCost, unit_behind};
 
 /// A table for people.
 pub fn table(answer: &Answer) -> String {
     let mut text = String::new();
     write_cases(&mut text, answer);
-    if let Some(gain) = &answer.refined {
-        write_gain(&mut text, gain);
+    if let Some(refined) = &answer.refined {
+        write_refined(&mut text, refined);
     }
     let condition = match answer.conditions.is_empty() {
         true => String::new(),
@@ -21,9 +21,9 @@ pub fn table(answer: &Answer) -> String {
     let _ = writeln!(
         text,
         "Pareto front of {} ({}) and {}{condition}: {}",
-        answer.of.model().speed().name(),
+        answer.of.gain.name(),
         answer.direction.name(),
-        answer.of.name(),
+        answer.of.cost.name(),
         counted(answer.front.len(), "motion")
     );
     write_limits(&mut text, answer);
@@ -43,24 +43,26 @@ fn write_cases(text: &mut String, answer: &Answer) {
     if !left_out.is_empty() {
         let _ = write!(text, "; left out: {}", left_out.join(", "));
     }
-    let (speed, slow) = answer.at_rest;
+    let (least, without) = answer.at_rest;
     let against = match answer.direction {
         Direction::Either => "",
         _ => " or in the other direction",
     };
-    let _ = writeln!(
-        text,
-        "\n{} left out at rest (no faster than {speed:.1e} m/s){against}",
-        count(slow)
-    );
+    let why = match answer.of.has_own_gain() {
+        true => format!("at rest (no faster than {least:.1e} m/s)"),
+        false => {
+            format!("without gain (no more than {least:.1e}{})", unit_behind(answer.of.gain))
+        }
+    };
+    let _ = writeln!(text, "\n{} left out {why}{against}", count(without));
 }
 
 /// What searches between the cases have brought.
-fn write_gain(text: &mut String, gain: &Gain) {
-    let Gain { searched, found, drawn, hypervolumes: [of_cases, whole], .. } = gain;
-    let gain = 100.0 * (whole / of_cases - 1.0);
-    let grows = match gain.is_finite() {
-        true => format!("; the area that the front dominates grows by {gain:.3} %"),
+fn write_refined(text: &mut String, refined: &Refined) {
+    let Refined { searched, found, drawn, hypervolumes: [of_cases, whole], .. } = refined;
+    let growth = 100.0 * (whole / of_cases - 1.0);
+    let grows = match growth.is_finite() {
+        true => format!("; the area that the front dominates grows by {growth:.3} %"),
         false => String::new(),
     };
     let (searches, found) = (searched.in_words(), counted(*found, "motion"));
@@ -71,16 +73,9 @@ fn write_gain(text: &mut String, gain: &Gain) {
     write_starts(text, searched, *drawn);
 }
 
-/// The optima, the front and the fastest, a line each, and how the optima are computed again.
+/// The optima, the front and the motions with the most gain, a line each, and how the optima are computed again.
 fn write_motions(text: &mut String, answer: &Answer) {
-    let _ = writeln!(
-        text,
-        "{:<26} {:>14} {:>16} {:>12}  motion",
-        "",
-        "speed [mm/s]",
-        format!("{} [{}]", answer.of.name(), answer.of.unit()),
-        "J/m"
-    );
+    let _ = writeln!(text, "{:<26} {}  motion", "", headings(answer.of));
     for Named { name, row } in &answer.named {
         match row {
             Some(row) => write_row(text, answer, &name.replace('_', " "), row),
@@ -88,7 +83,8 @@ fn write_motions(text: &mut String, answer: &Answer) {
         }
     }
     write_margins(text, answer);
-    for (heading, rows) in [("front", &answer.front), ("the fastest", &answer.top)] {
+    let top = if answer.of.has_own_gain() { "the fastest" } else { "the most gain" };
+    for (heading, rows) in [("front", &answer.front), (top, &answer.top)] {
         for (place, row) in rows.iter().enumerate() {
             write_row(text, answer, if place == 0 { heading } else { "" }, row);
         }
@@ -99,6 +95,38 @@ fn write_motions(text: &mut String, answer: &Answer) {
             let _ = writeln!(text, "replay of {}: {}", name.replace('_', " "), row.replay);
         }
     }
+}
+
+/// The gain, the cost and the cost per gain with their units, of the speed in mm/s.
+fn names(of: GainAndCost) -> [String; 3] {
+    if of.has_own_gain() {
+        let cost = format!("{} [{}]", of.cost.name(), of.cost.unit());
+        return ["speed [mm/s]".to_owned(), cost, "J/m".to_owned()];
+    }
+    let [gain, cost] = of.both().map(|it| match it.unit() {
+        "1" => it.name().to_owned(),
+        unit => format!("{} [{unit}]", it.name()),
+    });
+    [gain, cost, "cost per gain".to_owned()]
+}
+
+/// These above their columns.
+fn headings(of: GainAndCost) -> String {
+    let [gain, cost, per_gain] = names(of);
+    match of.has_own_gain() {
+        true => format!("{gain:>14} {cost:>16} {per_gain:>12}"),
+        false => format!("{gain:>16} {cost:>16} {per_gain:>16}"),
+    }
+}
+
+/// The numbers of a motion below these headings.
+fn numbers(of: GainAndCost, row: &Row) -> String {
+    let Row { gain, price, per_gain, .. } = row;
+    if of.has_own_gain() {
+        return format!("{:>14.6} {price:>16.6e} {per_gain:>12.6}", 1e3 * gain);
+    }
+    let [a, b, c] = names(of).map(|name| name.chars().count().max(16));
+    format!("{gain:>a$.6e} {price:>b$.6e} {per_gain:>c$.6e}")
 }
 
 /// How far the parameters of the optima may change.
@@ -121,7 +149,10 @@ fn write_row(text: &mut String, answer: &Answer, what: &str, row: &Row) {
     let motion = match row.period {
         Some(period) => format!("period {period}"),
         None => {
-            let error = row.errors.map(|it| format!(" \u{b1} {:.6} mm/s", 1e3 * it.speed));
+            let error = row.errors.map(|it| match answer.of.has_own_gain() {
+                true => format!(" \u{b1} {:.6} mm/s", 1e3 * it.gain),
+                false => format!(" \u{b1} {:.2e}{}", it.gain, unit_behind(answer.of.gain)),
+            });
             format!("{}, means{}", row.outcome, error.unwrap_or_default())
         }
     };
@@ -130,10 +161,8 @@ fn write_row(text: &mut String, answer: &Answer, what: &str, row: &Row) {
     let robust = under_tolerances(answer, row);
     let _ = writeln!(
         text,
-        "{what:<26} {:>14.6} {:>16.6e} {:>12.6}  {motion}{basin}; {}; {}{robust}",
-        1e3 * row.speed,
-        row.price,
-        row.energy_per_metre,
+        "{what:<26} {}  {motion}{basin}; {}; {}{robust}",
+        numbers(answer.of, row),
         varied_values(row),
         match row.case {
             Some(case) => format!("case {case}"),
@@ -148,12 +177,17 @@ fn under_tolerances(answer: &Answer, row: &Row) -> String {
         return "; not judged under tolerances, as it does not repeat".to_owned();
     }
     let Some(it) = &row.robustness else { return String::new() };
-    let (kept, speed) = (100.0 * it.kept, 1e3 * it.speed);
+    let (of, kept) = (answer.of, 100.0 * it.kept);
+    let (reached, unit) = match of.has_own_gain() {
+        true => (
+            format!("{:.4} mm/s or more {}", 1e3 * it.gain, answer.direction.adverb()),
+            format!(" {}", of.cost.unit()),
+        ),
+        false => (format!("{:.4e}{} or more", it.gain, unit_behind(of.gain)), unit_behind(of.cost)),
+    };
     format!(
-        "; under tolerances 95 % of the draws reach {speed:.4} mm/s or more {}, 95 % take {:.4e} {} or less, {kept:.1} % keep the period{}",
-        answer.direction.adverb(),
+        "; under tolerances 95 % of the draws reach {reached}, 95 % take {:.4e}{unit} or less, {kept:.1} % keep the period{}",
         it.price,
-        answer.of.unit(),
         counts_of_draws(it)
     )
 }

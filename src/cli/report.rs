@@ -4,17 +4,19 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::{price, with_trade_off};
+use super::arguments::{cost, gain, held};
 use super::failure::Failure;
 use super::target::Target;
 use crate::explore::{GENERATOR, Request, report};
 use crate::quantity::printable::printable;
-use crate::store;
+use crate::store::{self, Archive};
+use crate::tradeoff::GainAndCost;
 
 const EXAMPLES: &str = "\
 Examples:
   capsulemap report results/overview/overview.h5
   capsulemap report FILE.h5 --of work_positive --output for-a-colleague.html
+  capsulemap report FILE.h5 --of work --for amplitude
 
 The page has the optima with their motions, the figures of the study, the study, where the results come from and how to \
 compute them again. It needs no network and no other file. Motions between the cases are those that `capsulemap tradeoff \
@@ -26,9 +28,12 @@ compute them again. It needs no network and no other file. Motions between the c
 pub struct Report {
     /// The file of results.
     file: PathBuf,
-    /// The output that should be small: an energy per cycle, one over a distance or another; the power by default.
+    /// The output that should be small: an energy per cycle, one over a distance or another; of the capsule the power by default.
     #[arg(long, value_name = "OUTPUT")]
     of: Option<String>,
+    /// The output that should be large, in either direction; of the capsule the progression speed by default.
+    #[arg(long = "for", value_name = "OUTPUT")]
+    gain: Option<String>,
     /// The page; beside the file of results, with its name, by default.
     #[arg(long, value_name = "FILE.html")]
     output: Option<PathBuf>,
@@ -41,11 +46,22 @@ impl Report {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let archive = store::open(&self.file).map_err(Failure::request)?;
-        let model = with_trade_off(&archive)?;
-        let of = price("--of", self.of.as_deref(), model).map_err(Failure::request)?;
+        let of = self.outputs(&archive)?;
         let page = self.output.clone().unwrap_or_else(|| self.file.with_extension("html"));
         let target = Target::of(&page, |page| self.check(page))?;
         target.put(&report(&Request { archive: &archive, file: &self.file, of })?, &[])
+    }
+
+    /// The gain and the cost.
+    fn outputs(&self, archive: &Archive) -> Result<GainAndCost, Failure> {
+        let found = (gain(archive, self.gain.as_deref()), cost(archive, self.of.as_deref()));
+        match found {
+            (Ok(gain), Ok(cost)) => held(gain, cost).map_err(Failure::request),
+            (gain, cost) => {
+                let faults: Vec<String> = cost.err().into_iter().chain(gain.err()).collect();
+                Err(Failure::requests(&faults))
+            }
+        }
     }
 
     /// Refuses to replace what this program has not written.

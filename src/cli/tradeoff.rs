@@ -1,11 +1,11 @@
-//! `capsulemap tradeoff`: what moves fastest for how little, from a file of results.
+//! `capsulemap tradeoff`: what gains most for how little, as what moves fastest, from a file of results.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{named, price, with_trade_off};
+use super::arguments::{cost, gain, held, named};
 use super::failure::Failure;
 use super::optima_csv::csv;
 use super::optima_json::json;
@@ -18,11 +18,11 @@ use crate::campaign::{
     Between, CampaignError, KeptSearches, Tolerances, TradeOff, searches_path, study_of,
 };
 use crate::description::{Description, Output, Parameter};
-use crate::quantity::Dimension;
 use crate::quantity::printable::printable;
+use crate::quantity::{Dimension, parse_quantity};
 use crate::store::{self, Archive, StoreError, quantity};
 use crate::study::document::unknown;
-use crate::tradeoff::Direction;
+use crate::tradeoff::{Direction, GainAndCost};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -32,37 +32,43 @@ Examples:
   capsulemap tradeoff FILE.h5 --refine --json
   capsulemap tradeoff FILE.h5 --refine --tolerances \"k2 = 5 %, mu_s = 10 %\"
   capsulemap tradeoff FILE.h5 --budget \"20 mW\" --speed \"5 mm/s\" --csv
+  capsulemap tradeoff FILE.h5 --of work --for amplitude
 
 The front is of all cases of the file, each with the attractor that it has ended on. Motions that are chaotic or \
-quasi-periodic take part by their means. The cost is the output --of. With --refine, periodic motions are followed from the cases \
-to where the speed is stationary at its cost, and from these along the front; each is told with its active constraint. \
+quasi-periodic take part by their means. The cost is the output --of, the gain the output --for: of the capsule the progression \
+speed, of other models any output, and both are named then. With --refine, periodic motions are followed from the cases \
+to where the gain is stationary at its cost, and from these along the front; each is told with its active constraint. \
 Conditions then bound the search: parameters, and up to 3 outputs that change smoothly.";
 
-/// Find the fastest motions for the least energy.
+/// Find the fastest motions for the least energy, or the most of one output for the least of another.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Tradeoff {
     /// The file of results.
     file: PathBuf,
-    /// The output that should be small: an energy per cycle, one over a distance or another; the power by default.
+    /// The output that should be small: an energy per cycle, one over a distance or another; of the capsule the power by default.
     #[arg(long, value_name = "OUTPUT")]
     of: Option<String>,
-    /// Motions to compare; `either` compares magnitudes of speeds.
+    /// The output that should be large, the gain; of the capsule the progression speed by default.
+    #[arg(long = "for", value_name = "OUTPUT")]
+    gain: Option<String>,
+    /// Motions to compare: those with a positive gain are `forward`; `either` compares magnitudes of gains.
     #[arg(long, value_parser = named(&Direction::NAMES), default_value = "either")]
     direction: Direction,
     /// Conditions on parameters and outputs that are one number for each case, joined by `and`; signs < <= > >= = !=.
     #[arg(long = "where", value_name = "CONDITIONS")]
     conditions: Option<String>,
-    /// Speed up to which a motion counts as at rest; a millionth of the fastest by default.
+    /// Speed, or another gain, up to which a motion counts as at rest; a millionth of the largest by default.
     #[arg(long, value_name = "QUANTITY")]
     at_rest: Option<String>,
-    /// Most of the output that may be spent: the fastest motion within it is told.
+    /// Most of the cost that may be spent: the fastest motion within it, or that with the most gain, is told.
     #[arg(long, value_name = "QUANTITY")]
     budget: Option<String>,
-    /// Least speed that is wanted: the motion that reaches it for the least is told.
+    /// Least speed, or another gain, that is wanted: the motion that reaches it for the least is told.
     #[arg(long, value_name = "QUANTITY")]
     speed: Option<String>,
-    /// Search for better motions between the cases, over the parameters that vary, within their ranges (at most 6).
+    /// Search for better motions between the cases, over the parameters that vary, within their ranges (at most 6); for outputs with
+    /// derivatives, which those of oscillators given as text do not have.
     #[arg(long)]
     refine: bool,
     /// Points drawn over the ranges and settled from rest, from which searches begin besides the cases.
@@ -70,7 +76,7 @@ pub struct Tradeoff {
         value_parser = clap::value_parser!(u32).range(..=100_000))]
     starts: u32,
     /// Tolerances of parameters, as "k2 = 5 %, mu_s = 10 %": 5 % is the half width of an even (uniform) distribution, within which each
-    /// parameter is drawn by itself. Tells for the periodic optima and motions of the front the speed that 95 of 100 draws reach, the
+    /// parameter is drawn by itself. Tells for the periodic optima and motions of the front the gain that 95 of 100 draws reach, the
     /// cost that 95 of 100 do not exceed, the share that keeps the period, and how many draws keep `--where` and `--budget`.
     #[arg(long, value_name = "TOLERANCES")]
     tolerances: Option<String>,
@@ -91,7 +97,7 @@ pub struct Tradeoff {
     /// Worker threads; one per core by default.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
     threads: Option<u64>,
-    /// List the fastest motions too, so many at most.
+    /// List the motions with the most gain too, so many at most.
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
     top: usize,
     /// Print one JSON object.
@@ -104,10 +110,10 @@ pub struct Tradeoff {
 
 /// What is asked, read.
 struct Request {
-    of: Output,
+    of: GainAndCost,
     at_rest: Option<f64>,
     budget: Option<f64>,
-    speed: Option<f64>,
+    least_gain: Option<f64>,
     tolerances: Option<Tolerances>,
 }
 
@@ -115,8 +121,8 @@ impl Tradeoff {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let archive = store::open(&self.file).map_err(Failure::request)?;
-        let model = with_trade_off(&archive)?;
-        let request = self.request(model)?;
+        let request = self.request(&archive)?;
+        self.check_refine(archive.frame().model())?;
         let kept = self.refine.then(|| self.kept(&archive)).transpose()?;
         let threads = self.threads.map(|threads| threads as usize);
         let trade_off = TradeOff {
@@ -127,7 +133,7 @@ impl Tradeoff {
             conditions: self.conditions.as_deref(),
             at_rest: request.at_rest,
             budget: request.budget,
-            speed: request.speed,
+            least_gain: request.least_gain,
             top: self.top,
             slopes: self.json,
             under: request.tolerances.as_ref(),
@@ -175,26 +181,47 @@ impl Tradeoff {
         }
     }
 
-    fn request(&self, model: &'static Description) -> Result<Request, Failure> {
+    /// Refuses a refinement where no output of the model has derivatives.
+    fn check_refine(&self, model: &'static Description) -> Result<(), Failure> {
+        if !self.refine || model.outputs().any(Output::is_smooth) {
+            return Ok(());
+        }
+        Err(Failure::request(format!(
+            "--refine: follows derivatives of outputs in the parameters, and no output of the model {} has them; without --refine the cases \
+             of the file are compared",
+            model.name
+        )))
+    }
+
+    fn request(&self, archive: &Archive) -> Result<Request, Failure> {
+        let model = archive.frame().model();
         let mut faults = Vec::new();
-        let of = price("--of", self.of.as_deref(), model).unwrap_or_else(|fault| {
-            faults.push(fault);
-            model.power()
-        });
-        let speed_unit = model.speed().unit();
+        let mut noted = |found: Result<Output, String>| found.map_err(|it| faults.push(it)).ok();
+        let cost = noted(cost(archive, self.of.as_deref()));
+        let gain = noted(gain(archive, self.gain.as_deref()));
+        // Beside an output that is not known the quantities are read as those of the outputs that the model names, if it names some.
+        let gain_or_own = gain.or_else(|| GainAndCost::own_gain(model));
+        let cost_or_own = cost.or_else(|| model.has_trade_off().then(|| model.power()));
         let limits = [
-            ("at-rest", &self.at_rest, speed_unit),
-            ("budget", &self.budget, of.unit()),
-            ("speed", &self.speed, speed_unit),
+            ("at-rest", &self.at_rest, gain_or_own),
+            ("budget", &self.budget, cost_or_own),
+            ("speed", &self.speed, gain_or_own),
         ];
-        let [at_rest, budget, speed] = limits.map(|(option, text, unit)| {
-            let value = quantity(text.as_deref()?, unit);
+        let [at_rest, budget, least_gain] = limits.map(|(option, text, output)| {
+            let value = read_limit(text.as_deref()?, output?);
             value.map_err(|fault| faults.push(format!("--{option}: {fault}"))).ok()
         });
         let tolerances =
             self.tolerances.as_ref().map(|text| self.read_tolerances(text, model, &mut faults));
-        let request = Request { of, at_rest, budget, speed, tolerances };
-        if faults.is_empty() { Ok(request) } else { Err(Failure::requests(&faults)) }
+        let of = gain.zip(cost).map(|(gain, cost)| held(gain, cost));
+        match of.transpose() {
+            Err(fault) => faults.push(fault),
+            Ok(Some(of)) if faults.is_empty() => {
+                return Ok(Request { of, at_rest, budget, least_gain, tolerances });
+            }
+            Ok(_) => {}
+        }
+        Err(Failure::requests(&faults))
     }
 
     /// The tolerances in a text; faults are noted.
@@ -213,6 +240,11 @@ impl Tradeoff {
         }
         Tolerances { each, draws: self.draws as usize, seed: self.seed }
     }
+}
+
+/// A limit of an output (SI); a plain number is in SI already.
+fn read_limit(text: &str, output: Output) -> Result<f64, String> {
+    text.trim().parse().or_else(|_| parse_quantity(text, output.dimension()))
 }
 
 /// The tolerance that a part of a text gives a parameter, which none of those `before` is of.

@@ -5,11 +5,11 @@ use super::numbers::{number, percent, unit};
 use super::optimum::{Drawings, Undrawn, drawings};
 use super::request::Request;
 use crate::campaign::{
-    Answer, Between, CampaignError, Gain, KeptFront, Margins, Named, Row, TradeOff, silent,
+    Answer, Between, CampaignError, KeptFront, Margins, Named, Refined, Row, TradeOff, silent,
 };
-use crate::description::{Description, Output, Parameter};
+use crate::description::{Description, Parameter};
 use crate::study::Study;
-use crate::tradeoff::Direction;
+use crate::tradeoff::{Direction, GainAndCost, unit_behind};
 
 /// Writes the optima in a direction, of the cases and of what was found between them, if anything was sought: those that keep its
 /// conditions.
@@ -23,7 +23,11 @@ pub fn write_optima(
     let Request { archive, file, of } = *request;
     let condition = front.map(KeptFront::condition).filter(|it| !it.is_empty());
     let under = condition.as_ref().map_or(String::new(), |it| format!(", where {it}"));
-    page.heading(&format!("Moving {}{under}", direction.name()));
+    let moving = match of.has_own_gain() {
+        true => format!("Moving {}", direction.name()),
+        false => format!("{}, {}", of.gain.name(), direction.name()),
+    };
+    page.heading(&format!("{moving}{under}"));
     let trade_off = TradeOff {
         archive,
         file,
@@ -32,7 +36,7 @@ pub fn write_optima(
         conditions: condition.as_deref(),
         at_rest: None,
         budget: None,
-        speed: None,
+        least_gain: None,
         top: 0,
         slopes: false,
         between: front.map_or(Between::Nothing, Between::Known),
@@ -76,13 +80,17 @@ fn write_answer(
     write_motions(page, &named, study, moving)
 }
 
-/// Draws the motions of the optima.
+/// Draws the motions of the optima; without a drive there are no cycles to draw.
 fn write_motions(
     page: &mut Page,
     named: &[(String, Row)],
     study: &Study,
     moving: &str,
 ) -> Result<(), CampaignError> {
+    if !study.base.model().keeps_histories() {
+        page.note("Motions without a drive are not drawn.");
+        return Ok(());
+    }
     for (name, row) in named {
         match drawings(row, study) {
             Ok(Some(Drawings { pictures, cycles })) => {
@@ -112,35 +120,49 @@ fn front_in_words(answer: &Answer) -> String {
         false => format!(" where {}", answer.conditions.join(" and ")),
     };
     let searched = match &answer.refined {
-        Some(Gain { searched, found, .. }) => format!(
+        Some(Refined { searched, found, .. }) => format!(
             " Between the cases {} led to {found} motions under these conditions; each search is local, and a better motion may lie \
              elsewhere.",
             searched.in_words()
         ),
         None => " No motion was sought between the cases.".to_owned(),
     };
+    let (of, at_rest) = (answer.of, answer.at_rest.0);
+    let (gain, without) = match of.has_own_gain() {
+        true => (
+            "progression speed",
+            format!("Motions of no more than {at_rest:.1e} m/s count as at rest."),
+        ),
+        false => (
+            of.gain.name(),
+            format!("A gain of no more than {at_rest:.1e}{} counts as none.", unit_behind(of.gain)),
+        ),
+    };
     format!(
-        "The Pareto front of progression speed ({}) and {}{condition} has {} motions, {between} of them between the cases.{searched}{left_out} \
-         Motions of no more than {:.1e} m/s count as at rest.",
+        "The Pareto front of {gain} ({}) and {}{condition} has {} motions, {between} of them between the cases.{searched}{left_out} \
+         {without}",
         answer.direction.name(),
-        answer.of.name(),
-        answer.front.len(),
-        answer.at_rest.0
+        of.cost.name(),
+        answer.front.len()
     )
 }
 
 /// The optima side by side: what they give, what holds them, and where they are.
-fn write_table(page: &mut Page, named: &[(String, Row)], of: Output) {
+fn write_table(page: &mut Page, named: &[(String, Row)], of: GainAndCost) {
     let Some((_, first)) = named.first() else { return };
+    let (gain, per_gain) = match of.has_own_gain() {
+        true => ("progression speed [m/s]".to_owned(), "energy per metre [J/m]"),
+        false => (format!("{} [{}]", of.gain.name(), of.gain.unit()), "cost per gain"),
+    };
     let mut rows = vec![
-        line("progression speed [m/s]", named, |row| {
-            let error = row.errors.map(|it| format!(" \u{b1} {}", number(it.speed)));
-            number(row.speed) + &error.unwrap_or_default()
+        line(&gain, named, |row| {
+            let error = row.errors.map(|it| format!(" \u{b1} {}", number(it.gain)));
+            number(row.gain) + &error.unwrap_or_default()
         }),
-        line(&format!("{} [{}]", of.name(), of.unit()), named, |row| number(row.price)),
+        line(&format!("{} [{}]", of.cost.name(), of.cost.unit()), named, |row| number(row.price)),
     ];
-    if of != of.model().energy_per_distance() {
-        rows.push(line("energy per metre [J/m]", named, |row| number(row.energy_per_metre)));
+    if of.told_per_gain() != Some(of.cost) {
+        rows.push(line(per_gain, named, |row| number(row.per_gain)));
     }
     rows.push(line("motion", named, |row| match row.period {
         Some(period) => format!("period {period}"),
@@ -166,12 +188,13 @@ fn write_table(page: &mut Page, named: &[(String, Row)], of: Output) {
     page.table(&headings, &rows);
 }
 
-/// By how many percent speed and price of the motions between the cases change per percent of each parameter.
-fn write_sensitivities(page: &mut Page, named: &[(String, Row)], of: Output) {
+/// By how many percent gain and price of the motions between the cases change per percent of each parameter.
+fn write_sensitivities(page: &mut Page, named: &[(String, Row)], of: GainAndCost) {
     let known: Vec<&(String, Row)> =
         named.iter().filter(|(_, row)| !row.slopes.sensitivity.is_empty()).collect();
     let Some((_, first)) = known.first() else { return };
-    let outputs = ["speed", of.name()];
+    let gain = if of.has_own_gain() { "speed" } else { of.gain.name() };
+    let outputs = [gain, of.cost.name()];
     let columns = known.iter().flat_map(|(name, _)| outputs.map(|it| format!("{it}, {name}")));
     let rows = first.slopes.sensitivity.iter().map(|(parameter, _)| {
         let cells = known.iter().flat_map(|(_, row)| sensitivity(row, *parameter).map(percent));
@@ -186,7 +209,7 @@ fn write_sensitivities(page: &mut Page, named: &[(String, Row)], of: Output) {
     page.table(&headings, &rows);
 }
 
-/// By how many percent speed and price of a motion change per percent of a parameter; NaN where that is not known.
+/// By how many percent gain and price of a motion change per percent of a parameter; NaN where that is not known.
 fn sensitivity(row: &Row, parameter: Parameter) -> [f64; 2] {
     let known = row.slopes.sensitivity.iter().find(|(other, _)| *other == parameter);
     known.map_or([f64::NAN; 2], |(_, both)| *both)

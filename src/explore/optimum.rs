@@ -51,7 +51,7 @@ pub enum Undrawn {
 fn study(row: &Row, of: &Study, cycles: u32) -> Study {
     let base = of.base.clone();
     let mut study =
-        Study { base, outputs: vec![of.base.model().speed()], ..Study::of(of.base.model()) };
+        Study { base, outputs: vec![of.base.model().main_output()], ..Study::of(of.base.model()) };
     let mut start = State::origin(of.base.model());
     for (coordinate, value, _) in &row.coordinates {
         match coordinate {

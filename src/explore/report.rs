@@ -5,7 +5,8 @@ use super::numbers::{number, unit};
 use super::optima::write_optima;
 use super::request::Request;
 use crate::campaign::{CampaignError, KeptFront, KeptSearches, quoted, study_of};
-use crate::figure::{FigureError, Picture, Shown, picture, variables};
+use crate::figure::{FigureError, Picture, Shown, gain_of, picture, variables};
+use crate::of::default_model;
 use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
 use crate::store::{CaseTable, provenance};
 use crate::study::{Coordinate, Drawing, Study};
@@ -13,7 +14,7 @@ use crate::tradeoff::Direction;
 
 /// The directions whose optima are told.
 const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Backward];
-/// The paper whose system it is.
+/// The paper whose system the capsule is.
 const PAPER: &str = "Y. Liu, H. Jiang, E. Pavlovskaia, M. Wiercigroch: Experimental investigation of the vibro-impact \
      capsule system. Procedia IUTAM (2017).";
 
@@ -24,7 +25,7 @@ const PAPER: &str = "Y. Liu, H. Jiang, E. Pavlovskaia, M. Wiercigroch: Experimen
 ///
 /// Fails if the file cannot be read or a motion cannot be computed again.
 pub fn report(request: &Request<'_>) -> Result<String, CampaignError> {
-    let Request { archive, file, .. } = *request;
+    let Request { archive, file, of } = *request;
     let study = study_of(archive, file)?;
     let mut page = Page::default();
     let kept = match KeptSearches::read(archive, &study) {
@@ -35,7 +36,7 @@ pub fn report(request: &Request<'_>) -> Result<String, CampaignError> {
         Ok(kept) => kept,
     };
     kept.damage(archive).iter().for_each(|it| page.note(&format!("{it}.")));
-    let fronts = kept.fronts(archive)?;
+    let fronts = kept.fronts(archive, of.gain)?;
     let report = Report { request, study: &study, kept: &kept, fronts: &fronts };
     report.write_figures(&mut page)?;
     page.part("Optima");
@@ -135,8 +136,18 @@ impl Report<'_> {
     fn drawn(&self, drawing: &Drawing) -> Result<Result<Picture, FigureError>, CampaignError> {
         let shown = variables(drawing, self.request.archive.frame().model());
         let dataset = self.request.archive.labelled(|name| shown.contains(name))?;
-        let refined = if drawing.kind.keys().between { self.fronts } else { &[] };
-        Ok(picture(Shown { dataset: &dataset, refined, measured: None }, drawing))
+        let refined = self.refined(drawing)?;
+        Ok(picture(Shown { dataset: &dataset, refined: &refined, measured: None }, drawing))
+    }
+
+    /// What was found between the cases for the gain that a figure shows, if it shows such motions.
+    fn refined(&self, drawing: &Drawing) -> Result<Vec<KeptFront>, CampaignError> {
+        let archive = self.request.archive;
+        let gain = gain_of(drawing, archive.frame().model());
+        match gain.filter(|_| drawing.kind.keys().between) {
+            Some(gain) => self.kept.fronts(archive, gain),
+            None => Ok(Vec::new()),
+        }
     }
 
     /// The study, where the results come from, and how to cite and to repeat them.
@@ -155,14 +166,20 @@ impl Report<'_> {
         commands.extend(
             refined.map(|options| format!("capsulemap tradeoff again.h5 {options} --refine")),
         );
-        commands.push(format!("capsulemap report again.h5 --of {}", self.request.of.name()));
+        let of = self.request.of;
+        let gain = match of.has_own_gain() {
+            true => String::new(),
+            false => format!(" --for {}", of.gain.name()),
+        };
+        commands.push(format!("capsulemap report again.h5 --of {}{gain}", of.cost.name()));
         page.verbatim(&commands.join("\n"));
-        if !self.kept.is_empty() {
+        let searches: usize = self.fronts.iter().map(|front| front.searched.searches).sum();
+        if searches > 0 {
             page.note(&format!(
                 "{} motions between the cases are known, from {} searches; motions under different conditions are counted apart. \
                  The commands above make the searches of the default `--starts` and `--seed` alone.",
                 self.fronts.iter().map(|front| front.motions.len()).sum::<usize>(),
-                self.kept.len()
+                searches
             ));
         }
         page.part("Where it comes from");
@@ -170,6 +187,9 @@ impl Report<'_> {
         page.table(&["", ""].map(str::to_owned), &rows.collect::<Vec<_>>());
         page.part("To cite it");
         page.text(&format!("{}.", provenance::program(&frame.attributes)));
-        page.text(PAPER);
+        let model = self.study.base.model();
+        if model == default_model() || model.extends == Some(default_model()) {
+            page.text(PAPER);
+        }
     }
 }

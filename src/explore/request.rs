@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::description::Output;
 use crate::store::Archive;
+use crate::tradeoff::GainAndCost;
 
 /// What a report is made of.
 #[derive(Debug, Clone, Copy)]
@@ -12,6 +12,6 @@ pub struct Request<'a> {
     pub archive: &'a Archive,
     /// Their file, as commands name it.
     pub file: &'a Path,
-    /// The output that should be small.
-    pub of: Output,
+    /// The outputs that should be large and small.
+    pub of: GainAndCost,
 }

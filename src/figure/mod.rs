@@ -68,6 +68,7 @@ mod trade_off_cells;
 mod trade_off_fronts;
 mod trade_off_maps;
 mod trade_off_motions;
+mod trade_off_outputs;
 mod trade_off_table;
 mod unit;
 mod varied;
@@ -86,6 +87,7 @@ pub use output::Place;
 pub use over_map::{MapLine, MapPoint, OverMap, over_map, over_map_variables};
 pub use shown::{Measured, Shown};
 pub use trade_off_cells::{TradeOffAxis, TradeOffCells, trade_off_cells};
+pub use trade_off_outputs::gain_of;
 
 use crate::description::Description;
 use crate::store::catalogue::Entry;
@@ -105,7 +107,7 @@ pub fn needs(kind: DrawingKind) -> Needs {
 /// The names of the variables whose numbers `drawing` shows or judges cases by; of others it needs no more
 /// than their labels.
 pub fn variables(drawing: &Drawing, model: &'static Description) -> BTreeSet<String> {
-    if !drawing.kind.suits(model) {
+    if !drawing.kind.suits(drawing.of.len(), model) {
         return BTreeSet::new();
     }
     let reads = registry::kind(drawing.kind).reads;
@@ -154,8 +156,8 @@ pub fn picture<'a>(
 /// The drawing, and what it leaves out or takes for something else.
 fn drawn(shown: Shown<'_>, drawing: &Drawing) -> Result<(Drawn, Vec<String>), FigureError> {
     let view = View::new(shown, drawing)?;
-    if !drawing.kind.suits(view.model()) {
-        return Err(view.unfit(view.model().without_trade_off()));
+    if !drawing.kind.suits(drawing.of.len(), view.model()) {
+        return Err(view.unfit(drawing.kind.needs_outputs(view.model())));
     }
     check_request(&view)?;
     let drawn = (registry::kind(drawing.kind).draw)(&view)?;

@@ -90,6 +90,11 @@ pub const KNEE: Symbol = optimum("knee", Shape::Diamond);
 /// The motion with the least energy per metre.
 pub const LEAST: Symbol = optimum("least J/m", Shape::Triangle);
 
+/// The motion with the most of another gain than the speed.
+pub const MOST_GAIN: Symbol = optimum("most gain", Shape::Circle);
+/// The motion with the least cost per gain, of another gain.
+pub const LEAST_PER_GAIN: Symbol = optimum("least cost per gain", Shape::Triangle);
+
 /// What was measured, over what is computed.
 pub const MEASURED: Symbol = optimum("measured", Shape::Square);
 

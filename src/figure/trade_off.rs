@@ -1,4 +1,4 @@
-//! Progression speed against an energy or the power that it takes, and the best of both.
+//! A gain, as the progression speed, against what it takes, as an energy or the power, and the best of both.
 
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn};
@@ -17,12 +17,13 @@ use super::style::{BLUE, FAINT_INK, ONE_COLUMN, UNDECIDED_DOT};
 use super::text::Text;
 use super::trade_off_fronts::{Factors, Front};
 use super::trade_off_motions::Motions;
+use super::trade_off_outputs::{gain_of, names, outputs};
 use super::trade_off_table::{BETWEEN, OPEN, table};
 use super::view::View;
 use crate::description::Description;
 use crate::store::catalogue::{self, DRAW};
 use crate::study::{Coordinate, Drawing};
-use crate::tradeoff::Candidate;
+use crate::tradeoff::{Candidate, GainAndCost, unit_behind};
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
@@ -30,26 +31,25 @@ const HEIGHT: f64 = 158.0;
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
-/// The name of the output that should be small: the work of a cycle, unless another is asked for.
-pub fn price<'d>(drawing: &'d Drawing, model: &'static Description) -> &'d str {
-    drawing.of.first().map_or(model.work().name(), String::as_str)
-}
-
-/// What a trade-off reads: both quantities, the energy per metre, what was drawn, and the outcomes.
+/// What a trade-off reads: both quantities, of the speed the energy per metre, what was drawn, and the outcomes.
 fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let drawn = Coordinate::all(model).map(|it| it.name().to_owned());
+    let named = names(drawing, model);
+    let has_own_gain = gain_of(drawing, model) == GainAndCost::own_gain(model);
+    let told_per_gain =
+        (has_own_gain && model.has_trade_off()).then(|| model.energy_per_distance());
     Names::of(outcome::READS)
-        .and([model.speed(), model.energy_per_distance()].map(catalogue::Entry::of_output))
+        .and(told_per_gain.map(catalogue::Entry::of_output))
         .and(category::reads(model))
         .and_named(drawing.colour_by.clone())
-        .and_named(drawn.chain([price(drawing, model).to_owned()]))
+        .and_named(drawn.chain(named.into_iter().flatten().map(str::to_owned)))
 }
 
 /// A trade-off that is drawn.
 struct TradeOff<'v, 'a> {
     view: &'v View<'a>,
-    /// The name of the output that should be small.
-    price: &'v str,
+    /// The gain and the cost.
+    of: GainAndCost,
     factors: Factors,
     free: &'v [&'a str],
     /// The fronts with the motions that they are among: that without conditions first.
@@ -60,13 +60,13 @@ struct TradeOff<'v, 'a> {
 
 /// Draws the trade-off that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let price = price(view.drawing, view.model());
+    let of = outputs(view)?;
     let free = view.free_axes();
-    let fronts = Front::all(view, price, &free)?;
+    let fronts = Front::all(view, of, &free)?;
     let paint = paint(view, &free)?;
-    let factors = Factors::of(view, price);
-    let shown = TradeOff { view, price, factors, free: &free, fronts, paint };
-    let table = table(view, price, &free, &shown.fronts)?;
+    let factors = Factors::of(view, of);
+    let shown = TradeOff { view, of, factors, free: &free, fronts, paint };
+    let table = table(view, of, &free, &shown.fronts)?;
     let page = PageRequest {
         right_room: &|height| shown.paint.as_ref().map_or(0.0, |it| it.room(height)),
         ..shown.request(&table)
@@ -131,13 +131,15 @@ impl TradeOff<'_, '_> {
 
     /// What the figure shows and leaves out, in a sentence kept inside its files.
     fn about(&self) -> String {
-        let shows = self.view.about(
-            &[self.view.model().speed().name().to_owned(), self.price.to_owned()],
-            self.free,
-        );
+        let of = self.of;
+        let shows = self.view.about(&of.both().map(|it| it.name().to_owned()), self.free);
         let motions = self.motions();
         let [by_means, undecided] = motions.aperiodic();
         let between: Vec<String> = self.fronts.iter().map(Front::about).collect();
+        let counting = match of.has_own_gain() {
+            true => format!("move faster than {:.1e} m/s", motions.at_rest),
+            false => format!("gain more than {:.1e}{}", motions.at_rest, unit_behind(of.gain)),
+        };
         let not_shown: usize = match self.free.len() == self.view.axes().len() {
             true => 0,
             false => self.view.refined.iter().map(|it| it.motions.len()).sum(),
@@ -150,11 +152,10 @@ impl TradeOff<'_, '_> {
         };
         format!(
             "{shows}; {} periodic cases, {by_means} others as means over their cycles, {undecided} undecided, {} without values, {}{not_shown}; the fronts \
-             are of motions that are not undecided and move faster than {:.1e} m/s",
+             are of motions that are not undecided and {counting}",
             motions.cases().len() - by_means - undecided,
             motions.left_out,
-            between.join("; "),
-            motions.at_rest
+            between.join("; ")
         )
     }
 
@@ -190,11 +191,11 @@ impl TradeOff<'_, '_> {
         let best = self.fronts.iter().flat_map(|front| &front.best);
         let fronts = best.flat_map(|best| self.factors.places(&best.front));
         let cases = motions.cases().iter().map(|case| self.factors.place(case));
-        let (prices, speeds): (Vec<f64>, Vec<f64>) = cases.chain(fronts).unzip();
+        let (prices, gains): (Vec<f64>, Vec<f64>) = cases.chain(fronts).unzip();
         let legend = if prices.len() > 1 { self.legend() } else { Vec::new() };
         let panel = PanelRequest {
-            x: AxisRequest::around(view.quantity(self.price), &prices, 0.04),
-            y: AxisRequest::around(view.quantity(view.model().speed().name()), &speeds, 0.06),
+            x: AxisRequest::around(view.quantity(self.of.cost.name()), &prices, 0.04),
+            y: AxisRequest::around(view.quantity(self.of.gain.name()), &gains, 0.06),
             header: Header { legend, note: view.held_note(self.free), ..Header::default() },
         };
         PageRequest {

@@ -1,13 +1,13 @@
-//! Speed and price of each cell of a map, and the fronts of these, for a screen that draws them itself.
+//! Gain and price of each cell of a map, and the fronts of these, for a screen that draws them itself.
 
 use std::collections::BTreeMap;
 
 use super::error::FigureError;
 use super::plane::Plane;
 use super::shown::Shown;
-use super::trade_off::price;
 use super::trade_off_fronts::Factors;
 use super::trade_off_motions::{DIRECTIONS, Motions};
+use super::trade_off_outputs::outputs;
 use super::view::View;
 use crate::study::Drawing;
 use crate::tradeoff::Direction;
@@ -26,7 +26,7 @@ pub struct TradeOffAxis {
 /// The trade-off of the cells of a map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TradeOffCells {
-    /// What the speed costs, and the speed.
+    /// What the gain costs, and the gain.
     pub axes: [TradeOffAxis; 2],
     /// The cells of the front in each direction, by rising price.
     pub fronts: Vec<(Direction, Vec<usize>)>,
@@ -45,15 +45,15 @@ pub fn trade_off_cells<'a>(
     let view = View::new(shown.into(), drawing)?;
     let plane = Plane::of(&view, "a map")?;
     let free = plane.free();
-    let model = view.model();
-    let motions = Motions::of(&view, price(drawing, model), &free, None)?;
+    let of = outputs(&view)?;
+    let motions = Motions::of(&view, of, &free, None)?;
     let cells = cells(&plane);
     let mut left_out = BTreeMap::new();
     if motions.left_out > 0 {
         left_out.insert("without values".to_owned(), motions.left_out);
     }
     let mut values = [vec![f32::NAN; plane.count()], vec![f32::NAN; plane.count()]];
-    let factors = Factors::of(&view, price(drawing, model));
+    let factors = Factors::of(&view, of);
     for motion in motions.cases() {
         if !motions.counts(motion) {
             let outcome = motions.outcome(motion).unwrap_or("without outcome");
@@ -61,17 +61,17 @@ pub fn trade_off_cells<'a>(
             continue;
         }
         let cell = cells[motion.case];
-        let (price, speed) = factors.place(motion);
-        (values[0][cell], values[1][cell]) = (price as f32, speed as f32);
+        let (price, gain) = factors.place(motion);
+        (values[0][cell], values[1][cell]) = (price as f32, gain as f32);
     }
     let fronts = DIRECTIONS.into_iter().map(|direction| {
         let best = motions.best(direction);
         (direction, best.of_all.front.iter().map(|at| cells[motions.at(*at).case]).collect())
     });
-    let [prices, speeds] = values;
+    let [prices, gains] = values;
     let axes = [
-        TradeOffAxis::of(&view, price(drawing, model), prices),
-        TradeOffAxis::of(&view, model.speed().name(), speeds),
+        TradeOffAxis::of(&view, of.cost.name(), prices),
+        TradeOffAxis::of(&view, of.gain.name(), gains),
     ];
     Ok(TradeOffCells { axes, fronts: fronts.collect(), left_out })
 }

@@ -5,12 +5,12 @@ use super::error::FigureError;
 use super::header::{Entry, Mark};
 use super::panel::Panel;
 use super::style::{CURVE_WIDTH, GREEN, INK, MINOR_WIDTH, PURPLE, VERMILION};
-use super::symbol::{FASTEST, KNEE, LEAST, Symbol};
+use super::symbol::{FASTEST, KNEE, LEAST, LEAST_PER_GAIN, MOST_GAIN, Symbol};
 use super::text::Text;
 use super::trade_off_motions::{Best, DIRECTIONS, Motions};
 use super::view::View;
 use crate::campaign::{KeptFront, RefinedMotion};
-use crate::tradeoff::Candidate;
+use crate::tradeoff::{Candidate, GainAndCost};
 
 /// How fronts under conditions are drawn, one after the other.
 const UNDER_CONDITIONS: [(plotters::style::RGBColor, Dash); 4] =
@@ -27,44 +27,47 @@ pub struct Front<'a> {
     stroke: Stroke,
 }
 
-/// Price and speed shown per SI unit.
+/// Price and gain shown per SI unit.
 #[derive(Debug, Clone, Copy)]
 pub struct Factors {
     /// Of the output that should be small.
     pub price: f64,
-    /// Of the speed.
-    pub speed: f64,
+    /// Of the gain.
+    pub gain: f64,
 }
 
 impl Factors {
-    /// Those of a view with the output `price`.
-    pub fn of(view: &View<'_>, price: &str) -> Factors {
-        let [price, speed] =
-            [price, view.model().speed().name()].map(|name| view.quantity(name).factor);
-        Factors { price, speed }
+    /// Those of a view with a gain and a cost.
+    pub fn of(view: &View<'_>, of: GainAndCost) -> Factors {
+        let [gain, price] = of.both().map(|it| view.quantity(it.name()).factor);
+        Factors { price, gain }
     }
 
-    /// Price and speed of a motion in the units of the figure.
+    /// Price and gain of a motion in the units of the figure.
     pub fn place(self, motion: &Candidate) -> (f64, f64) {
-        (motion.price * self.price, motion.speed * self.speed)
+        (motion.price * self.price, motion.gain * self.gain)
     }
 
-    /// Prices and speeds (SI) in the units of the figure.
+    /// Prices and gains (SI) in the units of the figure.
     pub fn places(self, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-        points.iter().map(|(price, speed)| (price * self.price, speed * self.speed)).collect()
+        points.iter().map(|(price, gain)| (price * self.price, gain * self.gain)).collect()
     }
 }
 
 impl<'a> Front<'a> {
-    /// The fronts of a view over the axes `free`, with the output `price`: that without conditions first.
+    /// The fronts of a view over the axes `free`, with a gain and a cost: that without conditions first.
     ///
     /// Motions between the cases, which may lie anywhere along an axis, take part only where no axis is held.
-    pub fn all(view: &View<'a>, price: &str, free: &[&str]) -> Result<Vec<Front<'a>>, FigureError> {
+    pub fn all(
+        view: &View<'a>,
+        of: GainAndCost,
+        free: &[&str],
+    ) -> Result<Vec<Front<'a>>, FigureError> {
         let is_whole = free.len() == view.axes().len();
         let refined = if is_whole { view.refined } else { &[] };
         let (alone, under): (Vec<&KeptFront>, Vec<&KeptFront>) =
             refined.iter().partition(|it| it.conditions.is_empty());
-        let first = Motions::of(view, price, free, alone.first().copied())?;
+        let first = Motions::of(view, of, free, alone.first().copied())?;
         let mut fronts = vec![Front {
             best: DIRECTIONS.map(|direction| first.best(direction).shown(view)),
             motions: first,
@@ -72,7 +75,7 @@ impl<'a> Front<'a> {
             stroke: Stroke::solid(VERMILION, CURVE_WIDTH),
         }];
         for ((letter, place), sought) in ('a'..='z').zip(0..).zip(under) {
-            let motions = Motions::of(view, price, free, Some(sought))?;
+            let motions = Motions::of(view, of, free, Some(sought))?;
             // In a direction in which nothing was sought there is nothing to tell.
             let best = DIRECTIONS.map(|direction| match sought.has_sought(direction) {
                 true => motions.best(direction).shown(view),
@@ -171,8 +174,11 @@ impl<'a> Front<'a> {
 /// The optima in a direction with what marks them, those that matter least first.
 pub fn marked<'m>(motions: &'m Motions<'_>, best: &Best) -> Vec<(Symbol, &'m Candidate)> {
     let of_all = &best.of_all;
-    let each =
-        [(LEAST, of_all.lowest_cost_of_transport), (KNEE, of_all.knee), (FASTEST, of_all.fastest)];
+    let [least, most] = match motions.of.has_own_gain() {
+        true => [LEAST, FASTEST],
+        false => [LEAST_PER_GAIN, MOST_GAIN],
+    };
+    let each = [(least, of_all.least_per_gain), (KNEE, of_all.knee), (most, of_all.most_gain)];
     let found = each.into_iter().filter_map(|(symbol, place)| Some((symbol, place?)));
     found.map(|(symbol, place)| (symbol, motions.at(place))).collect()
 }

@@ -1,4 +1,5 @@
-//! The fastest motion of each cell of a plane and what it costs, side by side, with the front of the trade-off on both.
+//! The motion with the most gain of each cell of a plane, as the fastest, and what it costs, side by side, with the front of the trade-off
+//! on both.
 
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn};
@@ -15,13 +16,14 @@ use super::raster::Fill;
 use super::style::{INK, PAPER, TWO_COLUMNS};
 use super::symbol::Symbol;
 use super::text::Text;
-use super::trade_off::{KIND as TRADE_OFF, price};
+use super::trade_off::KIND as TRADE_OFF;
 use super::trade_off_fronts::marked;
 use super::trade_off_motions::{Best, DIRECTIONS, Motions};
+use super::trade_off_outputs::outputs;
 use super::view::View;
 use crate::campaign::KeptFront;
 use crate::study::Coordinate;
-use crate::tradeoff::Candidate;
+use crate::tradeoff::{Candidate, GainAndCost};
 
 /// Height of the frames [pt].
 const HEIGHT: f64 = 158.0;
@@ -55,20 +57,20 @@ impl Path {
     }
 }
 
-/// A map: a quantity of the fastest motion of each cell.
-struct FastestMap {
+/// A map: a quantity of the motion with the most gain of each cell.
+struct BestMap {
     colours: Option<Colours>,
     /// The value of each cell in the unit shown; NaN where no motion takes part.
     values: Vec<f64>,
 }
 
-impl FastestMap {
+impl BestMap {
     /// The map of the quantity of this name, from the values of the cells (SI).
-    fn of(view: &View<'_>, name: &str, values: impl Iterator<Item = Option<f64>>) -> FastestMap {
+    fn of(view: &View<'_>, name: &str, values: impl Iterator<Item = Option<f64>>) -> BestMap {
         let quantity = view.quantity(name);
         let values: Vec<f64> =
             values.map(|value| value.map_or(f64::NAN, |it| it * quantity.factor)).collect();
-        FastestMap { colours: Colours::for_values(&values, quantity), values }
+        BestMap { colours: Colours::for_values(&values, quantity), values }
     }
 
     /// How a cell is filled.
@@ -95,14 +97,14 @@ impl FastestMap {
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let shown = Maps::of(view)?;
     let path = shown.path()?;
-    let fastest = shown.fastest();
-    let speeds = fastest.iter().map(|it| it.map(|motion| motion.speed));
-    let prices = fastest.iter().map(|it| it.map(|motion| motion.price));
+    let best = shown.most_gain();
+    let gains = best.iter().map(|it| it.map(|motion| motion.gain));
+    let prices = best.iter().map(|it| it.map(|motion| motion.price));
     let maps = [
-        FastestMap::of(view, view.model().speed().name(), speeds),
-        FastestMap::of(view, shown.price, prices),
+        BestMap::of(view, shown.of.gain.name(), gains),
+        BestMap::of(view, shown.of.cost.name(), prices),
     ];
-    let legend = shown.legend(&path, fastest.iter().any(Option::is_none));
+    let legend = shown.legend(&path, best.iter().any(Option::is_none));
     let page = PageRequest {
         column_room: &|height| maps.iter().map(|it| it.room(height)).fold(0.0, f64::max),
         ..shown.page(legend)
@@ -123,8 +125,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 struct Maps<'v, 'a> {
     view: &'v View<'a>,
     plane: Plane<'a>,
-    /// The name of the output that should be small.
-    price: &'v str,
+    /// The gain and the cost.
+    of: GainAndCost,
     free: Vec<&'a str>,
     motions: Motions<'a>,
     /// The best in each direction, without what the request hides.
@@ -138,18 +140,18 @@ struct Maps<'v, 'a> {
 impl<'v, 'a> Maps<'v, 'a> {
     fn of(view: &'v View<'a>) -> Result<Self, FigureError> {
         let plane = Plane::of(view, "maps of a trade-off")?;
-        let price = price(view.drawing, view.model());
+        let of = outputs(view)?;
         let free = view.free_axes();
         let (alone, under_conditions): (Vec<&KeptFront>, Vec<&KeptFront>) =
             view.refined.iter().partition(|it| it.conditions.is_empty());
         // Where an axis is held, motions between the cases may lie anywhere along it.
         let is_whole = free.len() == view.axes().len();
         let sought = alone.first().copied().filter(|_| is_whole);
-        let motions = Motions::of(view, price, &free, sought)?;
+        let motions = Motions::of(view, of, &free, sought)?;
         let best = DIRECTIONS.map(|direction| motions.best(direction));
         let on_fronts = best.each_ref().map(|best| best.front.len());
         let best = best.map(|best| best.shown(view));
-        Ok(Maps { view, plane, price, free, motions, best, on_fronts, under_conditions })
+        Ok(Maps { view, plane, of, free, motions, best, on_fronts, under_conditions })
     }
 
     /// Where the motions of the fronts, and the optima, are over the plane.
@@ -165,22 +167,22 @@ impl<'v, 'a> Maps<'v, 'a> {
         Ok(Path { points: points.collect(), optima: optima.collect() })
     }
 
-    /// The fastest motion among the cases of each cell, by its magnitude; none where no case of a cell takes part.
-    fn fastest(&self) -> Vec<Option<&Candidate>> {
+    /// The motion with the most gain among the cases of each cell, by its magnitude; none where no case of a cell takes part.
+    fn most_gain(&self) -> Vec<Option<&Candidate>> {
         let Maps { view, plane, motions, .. } = self;
-        let mut fastest: Vec<Option<&Candidate>> = vec![None; plane.count()];
+        let mut best: Vec<Option<&Candidate>> = vec![None; plane.count()];
         let [row, column] =
             [plane.y_name, plane.x_name].map(|axis| view.places_along(axis, &self.free));
         for motion in motions.cases().iter().filter(|it| motions.counts(it)) {
-            let cell = &mut fastest[row(motion.case) * plane.x.count() + column(motion.case)];
-            if cell.is_none_or(|known| motion.speed.abs() > known.speed.abs()) {
+            let cell = &mut best[row(motion.case) * plane.x.count() + column(motion.case)];
+            if cell.is_none_or(|known| motion.gain.abs() > known.gain.abs()) {
                 *cell = Some(motion);
             }
         }
-        fastest
+        best
     }
 
-    /// The free axes with several values over which the fastest motion of a cell is taken.
+    /// The free axes with several values over which the motion with the most gain of a cell is taken.
     fn searched(&self) -> Vec<&'a str> {
         let axes = [self.plane.x_name, self.plane.y_name];
         let others = self.free.iter().copied().filter(|name| !axes.contains(name));
@@ -192,8 +194,11 @@ impl<'v, 'a> Maps<'v, 'a> {
         let mut legend = Vec::new();
         let names = self.searched().into_iter().map(|name| self.view.quantity(name).short_name());
         let names = names.reduce(|names, name| names.then(Text::plain(", ")).then(name));
-        legend
-            .extend(names.map(|it| (Mark::Nothing, Text::plain("fastest motion over ").then(it))));
+        let over = match self.of.has_own_gain() {
+            true => "fastest motion over ",
+            false => "most gain over ",
+        };
+        legend.extend(names.map(|it| (Mark::Nothing, Text::plain(over).then(it))));
         if !path.points.is_empty() {
             legend.push((Mark::Disc(INK, DOT[0]), Text::plain("Pareto fronts")));
             for (symbol, _) in &path.optima {
@@ -237,14 +242,18 @@ impl<'v, 'a> Maps<'v, 'a> {
 
     /// What the figure shows and leaves out, in a sentence kept inside its files.
     fn about(&self) -> String {
-        let speed = self.view.model().speed().name();
-        let about = self.view.about(&[speed, self.price].map(str::to_owned), &self.free);
+        let shown = self.of.both().map(|it| it.name().to_owned());
+        let about = self.view.about(&shown, &self.free);
+        let best = match self.of.has_own_gain() {
+            true => "the fastest motion",
+            false => "the motion with the most gain",
+        };
         let over = self.searched();
         let among =
             if over.is_empty() { String::new() } else { format!(" over {}", over.join(", ")) };
         let [forward, backward] = self.on_fronts;
         format!(
-            "{about}; in each cell over {} the fastest motion{among}, aperiodic ones by their means; the fronts have {forward} \
+            "{about}; in each cell over {} {best}{among}, aperiodic ones by their means; the fronts have {forward} \
              motions forward and {backward} backward, {} periodic motions between the cases take part{}{}",
             [self.plane.x_name, self.plane.y_name].join(", "),
             self.motions.between(),

@@ -4,17 +4,18 @@ use super::error::FigureError;
 use super::outcome::Outcomes;
 use super::view::View;
 use crate::campaign::{KeptFront, RefinedMotion, Searched};
-use crate::description::Output;
 use crate::store::catalogue::DRAW;
 use crate::store::takes_part;
 use crate::study::Coordinate;
-use crate::tradeoff::{Candidate, Direction, Optima, optima, speed_at_rest};
+use crate::tradeoff::{Candidate, Direction, GainAndCost, Optima, cost_per_gain, optima};
 
 /// The directions, each with a front and optima of its own.
 pub const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Backward];
 
 /// The motions of a figure.
 pub struct Motions<'a> {
+    /// What they gain and cost.
+    pub of: GainAndCost,
     /// The cases that have both outputs, each with its place over the free axes, and then the refined motions, numbered after all
     /// cases (SI).
     all: Vec<Candidate>,
@@ -29,7 +30,7 @@ pub struct Motions<'a> {
     refined: &'a [RefinedMotion],
     /// How many cases have no outputs.
     pub left_out: usize,
-    /// The speed up to which a motion is at rest [m/s].
+    /// The gain up to which a motion is one without gain, as at rest (SI).
     pub at_rest: f64,
 }
 
@@ -39,9 +40,9 @@ pub struct Best {
     pub direction: Direction,
     /// The best of all motions, by their places.
     pub of_all: Optima,
-    /// The front of the cases alone, as prices and speeds (SI).
+    /// The front of the cases alone, as prices and gains (SI).
     pub front_of_cases: Vec<(f64, f64)>,
-    /// The front of all motions, as prices and speeds (SI).
+    /// The front of all motions, as prices and gains (SI).
     pub front: Vec<(f64, f64)>,
 }
 
@@ -60,48 +61,45 @@ impl Best {
             self.of_all.front.clear();
         }
         if !view.shows("optima") {
-            let (knee, fastest, lowest_cost_of_transport) = (None, None, None);
-            self.of_all = Optima { knee, fastest, lowest_cost_of_transport, ..self.of_all };
+            let (knee, most_gain, least_per_gain) = (None, None, None);
+            self.of_all = Optima { knee, most_gain, least_per_gain, ..self.of_all };
         }
         self
     }
 }
 
 impl<'a> Motions<'a> {
-    /// The motions of a view over the axes `free`, with the output `price`, that make fronts under the conditions of `sought`, or
+    /// The motions of a view over the axes `free`, with a gain and a cost, that make fronts under the conditions of `sought`, or
     /// without any; those between the cases only where no axis is held, as they may lie anywhere along it.
     pub fn of(
         view: &View<'a>,
-        price: &str,
+        of: GainAndCost,
         free: &[&str],
         sought: Option<&'a KeptFront>,
     ) -> Result<Motions<'a>, FigureError> {
-        let Some(output) = view.model().output(price) else {
-            return Err(view.unfit(format!("`{price}` is no output of a motion")));
-        };
-        let (prices, speeds) =
-            (view.take(price, free)?, view.take(view.model().speed().name(), free)?);
-        if prices.len() != speeds.len() {
-            return Err(view.unfit(format!("`{price}` does not have one value per case")));
+        let (prices, gains) = (view.take(of.cost.name(), free)?, view.take(of.gain.name(), free)?);
+        if prices.len() != gains.len() {
+            let why = format!("`{}` does not have one value per case", of.cost.name());
+            return Err(view.unfit(why));
         }
-        let metres = energies_per_metre(view, output, free)?;
-        let all = prices.iter().zip(&speeds).enumerate().map(|(case, (price, speed))| Candidate {
+        let told = told_per_gain(view, of, free)?;
+        let all = prices.iter().zip(&gains).enumerate().map(|(case, (price, gain))| Candidate {
             case,
-            speed: *speed,
+            gain: *gain,
             price: *price,
-            energy_per_metre: metres.get(case).copied().unwrap_or(price / speed.abs()),
+            per_gain: told.get(case).copied().unwrap_or_else(|| cost_per_gain(*gain, *price)),
         });
-        let count = speeds.len();
+        let count = gains.len();
         let mut all: Vec<Candidate> =
-            all.filter(|it| it.price.is_finite() && it.speed.is_finite()).collect();
+            all.filter(|it| it.price.is_finite() && it.gain.is_finite()).collect();
         let of_cases = all.len();
-        let at_rest = speed_at_rest(all.iter().map(|it| it.speed));
+        let at_rest = of.at_rest(all.iter().map(|it| it.gain));
         let refined = sought.map_or(&[][..], |it| &it.motions);
         let numbered = refined.iter().enumerate();
-        all.extend(numbered.map(|(place, motion)| motion.candidate(count + place, output)));
+        all.extend(numbered.map(|(place, motion)| motion.candidate(count + place, of)));
         let outcomes = Outcomes::over(view, free)?;
         let left_out = count - of_cases;
-        Ok(Motions { all, of_cases, count, outcomes, sought, refined, left_out, at_rest })
+        Ok(Motions { of, all, of_cases, count, outcomes, sought, refined, left_out, at_rest })
     }
 
     /// The cases that have both outputs.
@@ -164,7 +162,7 @@ impl<'a> Motions<'a> {
         // What does not count is nowhere, so that places stay.
         let all = self.all.iter().map(|it| match self.counts(it) {
             true => *it,
-            false => Candidate { speed: f64::NAN, ..*it },
+            false => Candidate { gain: f64::NAN, ..*it },
         });
         let all: Vec<Candidate> = all.collect();
         let cases = &all[..self.of_cases];
@@ -181,24 +179,22 @@ impl<'a> Motions<'a> {
     }
 }
 
-/// The front of some motions as prices and speeds (SI).
+/// The front of some motions as prices and gains (SI).
 fn points(optima: &Optima, motions: &[Candidate]) -> Vec<(f64, f64)> {
-    optima.front.iter().map(|&at| (motions[at].price, motions[at].speed)).collect()
+    optima.front.iter().map(|&at| (motions[at].price, motions[at].gain)).collect()
 }
 
-/// The energy per metre of each case (SI), where the results have it and it is not the price over the speed.
-fn energies_per_metre(
-    view: &View<'_>,
-    price: Output,
-    free: &[&str],
-) -> Result<Vec<f64>, FigureError> {
-    let name = view.model().energy_per_distance().name();
+/// What is told as the cost per gain of each case (SI): of a speed the energy per metre, where the results have it; empty where it is the
+/// price over the gain.
+fn told_per_gain(view: &View<'_>, of: GainAndCost, free: &[&str]) -> Result<Vec<f64>, FigureError> {
+    let Some(told) = of.told_per_gain() else { return Ok(Vec::new()) };
+    let name = told.name();
     if view.dataset.variable(name).is_some() {
         return Ok(view.take(name, free)?.into_iter().collect());
     }
-    match price {
-        _ if price == view.model().power() => Ok(Vec::new()),
-        _ => Ok(vec![f64::NAN; view.take(price.name(), free)?.len()]),
+    match of.cost == view.model().power() {
+        true => Ok(Vec::new()),
+        false => Ok(vec![f64::NAN; view.take(of.cost.name(), free)?.len()]),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The optima of a trade-off: what marks them, and a table of their speeds, prices and parameters.
+//! The optima of a trade-off: what marks them, and a table of their gains, prices and parameters.
 
 use super::error::FigureError;
 use super::header::Mark;
@@ -12,7 +12,7 @@ use super::view::View;
 use crate::campaign::RefinedMotion;
 use crate::store::catalogue::DIRECTION;
 use crate::study::Coordinate;
-use crate::tradeoff::Candidate;
+use crate::tradeoff::{Candidate, GainAndCost};
 
 /// Follows the name of an optimum that is no case.
 pub const BETWEEN: &str = "\u{2217}";
@@ -29,14 +29,14 @@ struct Column<'v> {
     cell: Cell<'v>,
 }
 
-/// The optima of each front and direction with their speeds, their prices by the output `price`, and what varies over the axes `free`.
+/// The optima of each front and direction with their gains and prices, and what varies over the axes `free`.
 pub fn table(
     view: &View<'_>,
-    price: &str,
+    of: GainAndCost,
     free: &[&str],
     fronts: &[Front<'_>],
 ) -> Result<Table, FigureError> {
-    let columns = columns(view, price, free)?;
+    let columns = columns(view, of, free)?;
     let mut table = Table::default();
     let each = fronts.iter().flat_map(|front| front.best.iter().map(move |best| (front, best)));
     for (front, best) in each {
@@ -62,13 +62,13 @@ fn name(symbol: Symbol, motions: &Motions<'_>, best: &Best, motion: &Candidate) 
 
 fn columns<'v>(
     view: &'v View<'_>,
-    price: &str,
+    of: GainAndCost,
     free: &'v [&'v str],
 ) -> Result<Vec<Column<'v>>, FigureError> {
-    let speed = view.quantity(view.model().speed().name());
-    let price = view.quantity(price);
+    let [gain, price] = of.both().map(|it| view.quantity(it.name()));
+    let called = if of.has_own_gain() { Text::plain("Speed") } else { gain.short_name() };
     let mut columns = vec![
-        output(Text::plain("Speed"), speed, |motion| motion.speed),
+        output(called, gain, |motion| motion.gain),
         output(price.short_name(), price, |motion| motion.price),
     ];
     for coordinate in coordinates(view, free) {

@@ -8,7 +8,7 @@ use super::constraint::{Condition, fulfils};
 use super::{StoreError, Unread};
 use crate::description::{Output, Parameter};
 use crate::orbit::Outcome;
-use crate::tradeoff::Candidate;
+use crate::tradeoff::{Candidate, GainAndCost, cost_per_gain};
 
 /// The motions of a file that take part in a trade-off.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,34 +19,35 @@ pub struct Candidates {
     pub left_out: BTreeMap<String, usize>,
 }
 
-/// The cases that fulfil all of some conditions, with their speeds and what these cost by the output `of`. Chaotic and quasi-periodic
+/// The cases that fulfil all of some conditions, with what they gain and cost by the outputs of `of`. Chaotic and quasi-periodic
 /// motions take part by their means; cases that failed, are undecided, inferred or missing, or lack a number, do not.
 ///
 /// Fails if the file cannot be read or lacks the numbers.
 pub fn candidates(
     table: &CaseTable<'_>,
-    of: Output,
+    of: GainAndCost,
     conditions: &[Condition],
 ) -> Result<Candidates, Unread> {
-    let speeds = column(table, table.model().speed())?;
-    let prices = column(table, of)?;
-    let metres =
-        column(table, table.model().energy_per_distance()).unwrap_or_else(|_| unknown(table));
+    let gains = column(table, of.gain)?;
+    let prices = column(table, of.cost)?;
+    let told = of.told_per_gain();
+    let told = told.map(|it| column(table, it).unwrap_or_else(|_| unknown(table)));
     let outcomes = table.column(OUTCOME.name)?.unwrap_or_else(|| unknown(table));
     let mut found = Candidates { all: Vec::new(), left_out: BTreeMap::new() };
     for case in 0..table.cases() {
-        let (speed, price) = (speeds.values[case], prices.values[case]);
+        let (gain, price) = (gains.values[case], prices.values[case]);
         let reason = match name(&outcomes, case) {
             name if !takes_part(name) => Some(name),
-            _ if !(speed.is_finite() && price.is_finite()) => Some("without values"),
+            _ if !(gain.is_finite() && price.is_finite()) => Some("without values"),
             _ if !fulfils(conditions, case) => Some("excluded by conditions"),
             _ => None,
         };
         match reason {
             Some(reason) => *found.left_out.entry(reason.to_owned()).or_default() += 1,
             None => {
-                let energy_per_metre = metres.values[case];
-                found.all.push(Candidate { case, speed, price, energy_per_metre });
+                let told = told.as_ref().map(|it| it.values[case]);
+                let per_gain = told.unwrap_or_else(|| cost_per_gain(gain, price));
+                found.all.push(Candidate { case, gain, price, per_gain });
             }
         }
     }
@@ -67,18 +68,23 @@ fn name(column: &Column, case: usize) -> &str {
     named.map_or("without outcome", |(_, name)| name)
 }
 
-/// An output of each case; what files of older versions and of fewer outputs lack is computed from others.
+/// An output of each case; of what a model gains, what files of older versions and of fewer outputs lack is computed from others.
 fn column(table: &CaseTable<'_>, output: Output) -> Result<Column, Unread> {
     if let Some(column) = table.column(output.name())? {
         return Ok(column);
     }
-    let model = table.model();
-    let found = match model.drive_frequency() {
-        Some(omega) if output == model.power() => power(table, omega)?,
-        _ if output == model.energy_per_distance() => energy_per_distance(table)?,
-        _ => None,
-    };
+    let found = if table.model().has_trade_off() { derived(table, output)? } else { None };
     found.ok_or_else(|| Unread::Faults(vec![format!("the file has no `{}`", output.name())]))
+}
+
+/// The power, or the energy per distance, from others; none of another output, or where these are not there.
+fn derived(table: &CaseTable<'_>, output: Output) -> Result<Option<Column>, StoreError> {
+    let model = table.model();
+    match model.drive_frequency() {
+        Some(omega) if output == model.power() => power(table, omega),
+        _ if output == model.energy_per_distance() => energy_per_distance(table),
+        _ => Ok(None),
+    }
 }
 
 /// The power, from the work of a cycle and the frequency of the drive.

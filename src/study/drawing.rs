@@ -131,10 +131,10 @@ kinds! {
     Shares "shares" AXES;
     /// The stroboscopic section points of one case, and its impacts.
     Section "section" Keys { others: &[Shows::Section], most: 2, ..AXES };
-    /// Progression speed against an energy per cycle.
-    TradeOff "trade-off" Keys { outputs: true, most: 1, between: true, coloured: true, marks: &["fronts", "optima"], ..AXES };
-    /// The speed of the fastest motion of each cell over two axes, and beside it what it costs, with the fronts on both.
-    TradeOffMaps "trade-off-maps" Keys { outputs: true, most: 1, between: true, marks: &["fronts", "optima"], ..AXES };
+    /// A gain against a cost: the progression speed against an energy per cycle, or one output against another.
+    TradeOff "trade-off" Keys { outputs: true, most: 2, between: true, coloured: true, marks: &["fronts", "optima"], ..AXES };
+    /// The gain of the motion with the most of it in each cell over two axes, and beside it what it costs, with the fronts on both.
+    TradeOffMaps "trade-off-maps" Keys { outputs: true, most: 2, between: true, marks: &["fronts", "optima"], ..AXES };
     /// Special points of branches as curves in two parameters.
     Curves "curves" Keys { continued: true, marks: &["special-points"], ..AXES };
 }
@@ -152,10 +152,20 @@ impl DrawingKind {
         DrawingKind::NAMES[self as usize].0
     }
 
-    /// Whether motions of a model have what a figure of this kind shows: a gain and a cost, of a trade-off.
-    pub fn suits(self, model: &'static Description) -> bool {
+    /// Whether a figure of this kind that names so many outputs has what it shows: a gain and a cost, of a trade-off, which both are
+    /// named where the model has none of its own.
+    pub fn suits(self, named: usize, model: &'static Description) -> bool {
         let is_trade_off = matches!(self, DrawingKind::TradeOff | DrawingKind::TradeOffMaps);
-        !is_trade_off || model.has_trade_off()
+        !is_trade_off || model.has_trade_off() || named > 1
+    }
+
+    /// What is said where it does not suit.
+    pub fn needs_outputs(self, model: &'static Description) -> String {
+        format!(
+            "the model {} names no gain and no cost of its own; `of` of a {} has to name both, the cost first",
+            model.name,
+            self.name()
+        )
     }
 
     /// What a figure of this kind can show of a study of a model that keeps `outputs`.

@@ -101,11 +101,6 @@ fn read_drawing(
 /// The kind of a figure, if it is known; a figure lacks neither it nor a name.
 fn read_kind(table: &Table<'_, '_>) -> Option<DrawingKind> {
     let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", DrawingKind::NAMES));
-    if let (Some(kind), Some(entry)) = (kind, table.entry("kind"))
-        && !kind.suits(table.model())
-    {
-        entry.fault(table.model().without_trade_off());
-    }
     for key in ["name", "kind"] {
         if table.entry(key).is_none() {
             table.missing(key, "a figure to have a name and a kind");
@@ -193,13 +188,23 @@ fn read_name(entry: &Entry<'_, '_>) -> Option<String> {
 
 /// The names of what is drawn, those that the kind of figure can show.
 fn read_of(table: &Table<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) -> Vec<String> {
-    let Some(of) = table.entry("of") else { return Vec::new() };
+    let Some(of) = table.entry("of") else {
+        if let (Some(kind), Some(entry)) = (kind, table.entry("kind"))
+            && !kind.suits(0, table.model())
+        {
+            entry.fault(kind.needs_outputs(table.model()));
+        }
+        return Vec::new();
+    };
     let list = of.list();
     let Some(kind) = kind else { return Vec::new() };
     let most = kind.keys().most;
     if most == 0 {
         of.fault(format!("does not go with a figure of the kind {}", kind.name()));
         return Vec::new();
+    }
+    if !kind.suits(list.len(), table.model()) {
+        of.fault(kind.needs_outputs(table.model()));
     }
     if list.len() > most {
         let most = if most == 1 { "one output".to_owned() } else { format!("{most} outputs") };

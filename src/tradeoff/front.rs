@@ -1,7 +1,7 @@
-//! The Pareto front of speed over energy: the cases that no other beats in speed without taking more energy.
+//! The Pareto front of a gain over its price, as of speed over energy: the cases that no other beats in gain without taking more.
 
-/// A capsule slower than this share of the fastest is at rest beside it.
-const REST: f64 = 1e-6;
+/// A capsule slower than this share of the fastest is at rest beside it, and so with any gain.
+pub const REST: f64 = 1e-6;
 /// A section repeats no more closely than that a capsule at rest seems to move so fast [m/s].
 pub const NOISE: f64 = 1e-10;
 

@@ -11,9 +11,11 @@ use crate::orbit::matrix::{dot, solve};
 /// What is sought.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Goal {
-    /// The most speed for no more than a price, if one is given (SI).
-    Speed {
-        /// The direction in which speed counts.
+    /// The most of an output for no more than a price, if one is given (SI).
+    Most {
+        /// The output, as the speed.
+        gain: Output,
+        /// The direction in which it counts.
         direction: Direction,
         /// The output that is the price, and the most of it.
         budget: Option<(Output, f64)>,
@@ -62,7 +64,7 @@ impl Objective {
     /// none there.
     pub fn from(goal: Goal, family: &Family, first: &OperatingPoint) -> Option<Self> {
         let budget = match goal {
-            Goal::Speed { budget, .. } => budget.map(|(price, most)| Limit::budget(price, most)),
+            Goal::Most { budget, .. } => budget.map(|(price, most)| Limit::budget(price, most)),
             Goal::Least(_) => None,
         };
         let limits = budget.into_iter().chain(family.limits.iter().copied());
@@ -75,14 +77,14 @@ impl Objective {
 
     /// What the limit at a place holds an orbit by; none of a budget.
     pub fn hold(&self, place: usize) -> Option<Hold> {
-        let has_budget = matches!(self.goal, Goal::Speed { budget: Some(_), .. });
+        let has_budget = matches!(self.goal, Goal::Most { budget: Some(_), .. });
         if has_budget { place.checked_sub(1).map(Hold::Limit) } else { Some(Hold::Limit(place)) }
     }
 
     /// What is to be small, in SI.
     fn value(&self, at: &OperatingPoint) -> f64 {
         match self.goal {
-            Goal::Speed { direction, .. } => -direction.of(at.outputs.speed()),
+            Goal::Most { gain, direction, .. } => -direction.of(at.outputs[gain]),
             Goal::Least(output) => at.outputs[output],
         }
     }
@@ -90,10 +92,10 @@ impl Objective {
     /// Goal and limits at an orbit.
     pub fn measured(&self, orbit: OperatingPoint) -> Measured {
         let (output, factor) = match self.goal {
-            Goal::Speed { direction, .. } => {
-                let speed = orbit.outputs.speed();
-                let sign = if direction.of(speed) == speed { 1.0 } else { -1.0 };
-                (orbit.outputs.model().speed(), -sign / self.unit)
+            Goal::Most { gain, direction, .. } => {
+                let value = orbit.outputs[gain];
+                let sign = if direction.of(value) == value { 1.0 } else { -1.0 };
+                (gain, -sign / self.unit)
             }
             Goal::Least(output) => (output, 1.0 / self.unit),
         };

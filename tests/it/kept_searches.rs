@@ -11,7 +11,7 @@ use capsulemap::campaign::{Between, KeptSearches, TradeOff, silent, study_of};
 use capsulemap::capsule::Output;
 use capsulemap::store::{self, Archive};
 use capsulemap::study::Study;
-use capsulemap::tradeoff::Direction;
+use capsulemap::tradeoff::{Direction, GainAndCost};
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -179,12 +179,12 @@ fn refined(archive: &Archive, study: &Study) {
     let trade_off = TradeOff {
         archive,
         file: archive.path(),
-        of: Output::WorkPositive.into(),
+        of: GainAndCost::of_cost(Output::WorkPositive.into()).expect("the capsule has a speed"),
         direction: Direction::Either,
         conditions: None,
         at_rest: None,
         budget: None,
-        speed: None,
+        least_gain: None,
         top: 1,
         slopes: false,
         between: Between::Sought { kept: &kept, seed: 1, points: 8 },

@@ -132,7 +132,7 @@ fn the_knee_is_farthest_from_the_line_between_the_ends_and_the_hypervolume_an_ar
     let candidate = |case: usize| {
         let angle = std::f64::consts::FRAC_PI_2 * case as f64 / (count - 1) as f64;
         let (price, speed) = (1.0 - angle.cos(), 1e-3 + angle.sin());
-        Candidate { case, speed, price, energy_per_metre: price / speed }
+        Candidate { case, gain: speed, price, per_gain: price / speed }
     };
     let mut all: Vec<Candidate> = (0..count).map(candidate).collect();
     let mut random = Random::new(7);
@@ -142,10 +142,10 @@ fn the_knee_is_farthest_from_the_line_between_the_ends_and_the_hypervolume_an_ar
     let knee = all[best.knee.expect("a knee")];
     assert_eq!(knee.case, (count - 1) / 2);
     let points: Vec<(f64, f64)> =
-        best.front.iter().map(|&at| (all[at].price, all[at].speed)).collect();
+        best.front.iter().map(|&at| (all[at].price, all[at].gain)).collect();
     let area = hypervolume(&points, 1.0, 1e-3);
     assert!((area - std::f64::consts::FRAC_PI_4).abs() < 1e-4, "{area}");
     assert!(best.front.is_sorted_by(|&a, &b| all[a].price < all[b].price));
     assert!(optima(&all, Direction::Backward, None).front.is_empty());
-    assert_eq!(optima(&all[..0], Direction::Either, None).fastest, None);
+    assert_eq!(optima(&all[..0], Direction::Either, None).most_gain, None);
 }

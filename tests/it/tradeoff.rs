@@ -121,12 +121,8 @@ fn the_fronts_of_zdt1_to_zdt3_are_the_known_ones() {
 
 #[test]
 fn motions_without_numbers_and_equal_ones_are_no_trouble() {
-    let one = |case: usize, speed: f64, price: f64| Candidate {
-        case,
-        speed,
-        price,
-        energy_per_metre: f64::NAN,
-    };
+    let one =
+        |case: usize, gain: f64, price: f64| Candidate { case, gain, price, per_gain: f64::NAN };
     let all = [
         one(0, f64::NAN, 1.0),
         one(1, 2.0, f64::NAN),
@@ -136,8 +132,8 @@ fn motions_without_numbers_and_equal_ones_are_no_trouble() {
         one(5, 0.5, 1.0),
     ];
     let best = optima(&all, Direction::Either, None);
-    assert_eq!((best.front, best.fastest), (vec![5, 3], Some(3)));
-    assert_eq!((best.knee, best.lowest_cost_of_transport), (None, None));
+    assert_eq!((best.front, best.most_gain), (vec![5, 3], Some(3)));
+    assert_eq!((best.knee, best.least_per_gain), (None, None));
 }
 
 /// The hypervolume that moocore, a public implementation, finds; none where it is not installed.
