@@ -61,6 +61,7 @@ mod mutants;
 mod numbers;
 mod one_coefficient;
 mod optima;
+mod other_gains;
 mod other_models;
 mod own_capsule;
 mod own_models;
