@@ -26,18 +26,24 @@ in_lanes! {
             let guard = self.program.guards[due.which];
             let mut code = self.begin_event(guard, &mut due);
             let has_frictions = !self.program.frictions.is_empty();
-            let needs_before = matches!(guard, Guard::Event(_) | Guard::Forward(_) | Guard::Backward(_));
+            let needs_before = match guard {
+                Guard::Event(_) => true,
+                // What leaves rest stays where it is.
+                Guard::Forward(it) | Guard::Backward(it) => (due.here & slides(due.mode, it)).any(),
+                Guard::Switch(_) | Guard::Edge => false,
+            };
             let may_last = self.program.lasting.iter().any(Option::is_some);
             let moves_sides = matches!(
                 guard,
                 Guard::Event(event) if self.program.crosses[event] || self.program.lasting[event].is_some()
             );
             let passes = [needs_before, moves_sides, has_frictions, may_last];
+            let mut values = Values::room();
             for (pass, is_needed) in passes.into_iter().enumerate() {
                 if !is_needed {
                     continue;
                 }
-                let values = self.values(due.mode, due.time, due.state);
+                self.compute(&mut values, due.mode, due.time, due.state);
                 if pass == 3 {
                     self.note_loose(due.here, &values, due.mode);
                     continue;
@@ -262,8 +268,9 @@ in_lanes! {
                 state[0] = L::select(first.le(*second), state[0], L::splat(f64::NAN));
             }
             // The forces on what rests are known once the switches are.
+            let mut values = Values::room();
             for pass in 0..2 {
-                let values = self.values(&mode, time, state);
+                self.compute(&mut values, &mode, time, state);
                 if pass == 0 {
                     self.note_sides(&values, &mut mode, state);
                     for friction in 0..self.program.frictions.len() {

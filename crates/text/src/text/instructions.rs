@@ -59,10 +59,10 @@ pub enum SeriesStep {
     Scale(Scalar, Register),
     /// a + s b
     AddScaled(Register, Scalar, Register),
-    /// a - s b
-    SubScaled(Register, Scalar, Register),
     /// s a + r b
     TwoScaled(Scalar, Register, Scalar, Register),
+    /// A sum of scaled terms and a constant.
+    Sum(Sum),
     /// a b
     Mul(Register, Register),
     /// a a
@@ -83,6 +83,41 @@ pub enum SeriesStep {
     Tanh(Register),
     /// A friction, from its size while it slides and what it is at rest.
     Friction(usize, Register, Register),
+}
+
+/// The most terms of a sum that one instruction computes.
+pub const MOST_TERMS: usize = 8;
+
+/// A sum of scaled terms and a constant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sum {
+    /// The terms, of which those that there are come first.
+    each: [(u16, u16); MOST_TERMS],
+    /// How many there are.
+    count: u8,
+    /// What is added to the first order.
+    pub constant: Option<u16>,
+}
+
+impl Sum {
+    /// That of these terms.
+    ///
+    /// # Panics
+    /// Where there are more than [`MOST_TERMS`]; a text has far fewer than 65 536 values.
+    pub fn new(terms: &[(Scalar, Register)], constant: Option<Scalar>) -> Sum {
+        let small = |place: usize| u16::try_from(place).expect("a text has few values");
+        let mut each = [(0, 0); MOST_TERMS];
+        for (own, (scalar, register)) in each[..terms.len()].iter_mut().zip(terms) {
+            *own = (small(*scalar), small(*register));
+        }
+        Sum { each, count: terms.len() as u8, constant: constant.map(small) }
+    }
+
+    /// Its terms: the number and the series of each.
+    #[inline(always)]
+    pub fn terms(&self) -> &[(u16, u16)] {
+        &self.each[..usize::from(self.count)]
+    }
 }
 
 /// Where an exponential in a function is too small to be seen beside one.
@@ -123,54 +158,35 @@ impl SeriesStep {
                 | SeriesStep::FromConstant(..)
                 | SeriesStep::Scale(..)
                 | SeriesStep::AddScaled(..)
-                | SeriesStep::SubScaled(..)
                 | SeriesStep::TwoScaled(..)
+                | SeriesStep::Sum(_)
                 | SeriesStep::Rotation(..)
                 | SeriesStep::Friction(..)
         )
     }
 
-    /// The registers and the numbers that it takes, two of each; where it takes fewer, any others.
-    #[inline(always)]
-    pub fn operands(self) -> ([Register; 2], [Scalar; 2]) {
+    /// The registers that it takes.
+    pub fn operands(self) -> Vec<Register> {
         match self {
-            SeriesStep::Constant(s) => ([0, 0], [s, 0]),
-            SeriesStep::Time => ([0, 0], [0, 0]),
-            SeriesStep::Rotation(s, r) => ([0, 0], [s, r]),
+            SeriesStep::Constant(_) | SeriesStep::Time | SeriesStep::Rotation(..) => Vec::new(),
             SeriesStep::Add(a, b)
             | SeriesStep::Sub(a, b)
             | SeriesStep::Mul(a, b)
             | SeriesStep::Div(a, b)
-            | SeriesStep::Friction(_, a, b) => ([a, b], [0, 0]),
-            SeriesStep::AddConstant(a, s)
-            | SeriesStep::FromConstant(s, a)
-            | SeriesStep::Scale(s, a) => ([a, 0], [s, 0]),
-            SeriesStep::AddScaled(a, s, b) | SeriesStep::SubScaled(a, s, b) => ([a, b], [s, 0]),
-            SeriesStep::TwoScaled(s, a, r, b) => ([a, b], [s, r]),
-            SeriesStep::Neg(a)
+            | SeriesStep::Friction(_, a, b)
+            | SeriesStep::AddScaled(a, _, b)
+            | SeriesStep::TwoScaled(_, a, _, b) => vec![a, b],
+            SeriesStep::Sum(sum) => sum.terms().iter().map(|it| usize::from(it.1)).collect(),
+            SeriesStep::AddConstant(a, _)
+            | SeriesStep::FromConstant(_, a)
+            | SeriesStep::Scale(_, a)
+            | SeriesStep::Neg(a)
             | SeriesStep::Square(a)
             | SeriesStep::Sqrt(a)
             | SeriesStep::Exp(a)
             | SeriesStep::Log(a)
             | SeriesStep::SinCos(a)
-            | SeriesStep::Tanh(a) => ([a, 0], [0, 0]),
-        }
-    }
-
-    /// The registers that it takes, without others.
-    pub fn series_operands(self) -> Vec<Register> {
-        let ([a, b], _) = self.operands();
-        match self {
-            SeriesStep::Constant(_) | SeriesStep::Time | SeriesStep::Rotation(..) => Vec::new(),
-            SeriesStep::Add(..)
-            | SeriesStep::Sub(..)
-            | SeriesStep::Mul(..)
-            | SeriesStep::Div(..)
-            | SeriesStep::Friction(..)
-            | SeriesStep::AddScaled(..)
-            | SeriesStep::SubScaled(..)
-            | SeriesStep::TwoScaled(..) => vec![a, b],
-            _ => vec![a],
+            | SeriesStep::Tanh(a) => vec![a],
         }
     }
 

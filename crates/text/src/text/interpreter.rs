@@ -5,7 +5,7 @@ use capsulemap_engine::lane::series::{self, SquareRoot};
 use capsulemap_engine::lane::{Lane, Series};
 
 use crate::text::function::{Function, elementary_of};
-use crate::text::instructions::{Instruction, Place, ScalarStep, SeriesStep};
+use crate::text::instructions::{Instruction, Place, ScalarStep, SeriesStep, Sum};
 use crate::text::mode::TextMode;
 use crate::text::program::Program;
 
@@ -99,8 +99,8 @@ in_lanes! {
             SeriesStep::Neg(a) => -row[a],
             SeriesStep::Scale(s, a) => numbers[s] * row[a],
             SeriesStep::AddScaled(a, s, b) => row[a] + numbers[s] * row[b],
-            SeriesStep::SubScaled(a, s, b) => row[a] - numbers[s] * row[b],
             SeriesStep::TwoScaled(s, a, r, b) => numbers[s] * row[a] + numbers[r] * row[b],
+            SeriesStep::Sum(sum) => of_terms(&sum, numbers, row, k),
             SeriesStep::AddConstant(a, s) => if k == 0 { row[a] + numbers[s] } else { row[a] },
             SeriesStep::FromConstant(s, a) => if k == 0 { numbers[s] - row[a] } else { -row[a] },
             SeriesStep::Constant(s) => if k == 0 { numbers[s] } else { L::splat(0.0) },
@@ -145,6 +145,19 @@ in_lanes! {
             if it.is_pair {
                 of[register + 1][k] = row[register + 1];
             }
+        }
+    }
+
+    /// Term `k` of a sum of scaled terms.
+    fn of_terms<L: Lane>(sum: &Sum, numbers: &[L], row: &[L], k: usize) -> L {
+        let mut total = L::splat(0.0);
+        for (place, (number, register)) in sum.terms().iter().enumerate() {
+            let term = numbers[usize::from(*number)] * row[usize::from(*register)];
+            total = if place == 0 { term } else { total + term };
+        }
+        match sum.constant {
+            Some(constant) if k == 0 => total + numbers[usize::from(constant)],
+            _ => total,
         }
     }
 

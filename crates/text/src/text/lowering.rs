@@ -6,8 +6,9 @@ use crate::text::content::{Bound, Text};
 use crate::text::function::Function;
 use crate::text::graph::{Graph, Id, Level, Node};
 use crate::text::instructions::{
-    FrictionPlaces, Instruction, Place, Register, Scalar, ScalarStep, SeriesStep,
+    FrictionPlaces, Instruction, MOST_TERMS, Place, Register, Scalar, ScalarStep, SeriesStep, Sum,
 };
+use crate::text::terms::Terms;
 
 /// Instructions that are being made.
 pub(crate) struct Making {
@@ -129,13 +130,16 @@ impl Making {
                 let (sliding, at_rest) = (self.register(sliding), self.register(at_rest));
                 self.push(SeriesStep::Friction(place, sliding, at_rest))
             }
-            Node::Add(a, b) => self.sum(a, b),
-            Node::Sub(a, b) => self.difference(a, b),
-            Node::Neg(a) => {
+            Node::Add(..) | Node::Sub(..) | Node::Neg(_) => self.sum(id),
+            Node::Mul(a, b) if !self.is_series(a) || !self.is_series(b) => self.sum(id),
+            Node::Mul(a, b) if a == b => {
                 let a = self.register(a);
-                self.push(SeriesStep::Neg(a))
+                self.push(SeriesStep::Square(a))
             }
-            Node::Mul(a, b) => self.product(a, b),
+            Node::Mul(a, b) => {
+                let (a, b) = (self.register(a), self.register(b));
+                self.push(SeriesStep::Mul(a, b))
+            }
             Node::Div(a, b) => {
                 let (a, b) = (self.register(a), self.register(b));
                 self.push_growing(SeriesStep::Div(a, b))
@@ -145,55 +149,65 @@ impl Making {
         }
     }
 
-    fn sum(&mut self, a: Id, b: Id) -> Register {
-        let step = match [self.is_series(a), self.is_series(b)] {
-            [false, _] => SeriesStep::AddConstant(self.register(b), self.scalar(a)),
-            [_, false] => SeriesStep::AddConstant(self.register(a), self.scalar(b)),
-            _ => match [self.scaled(a), self.scaled(b)] {
-                [Some((s, a)), Some((r, b))] => {
-                    let (a, b) = (self.register(a), self.register(b));
-                    SeriesStep::TwoScaled(self.scalar(s), a, self.scalar(r), b)
-                }
-                [_, Some((s, b))] => {
-                    let (a, b) = (self.register(a), self.register(b));
-                    SeriesStep::AddScaled(a, self.scalar(s), b)
-                }
-                [Some((s, a)), _] => {
-                    let (a, b) = (self.register(a), self.register(b));
-                    SeriesStep::AddScaled(b, self.scalar(s), a)
-                }
-                _ => SeriesStep::Add(self.register(a), self.register(b)),
-            },
-        };
-        self.push(step)
-    }
-
-    fn difference(&mut self, a: Id, b: Id) -> Register {
-        let step = match [self.is_series(a), self.is_series(b)] {
-            [false, _] => SeriesStep::FromConstant(self.scalar(a), self.register(b)),
-            [_, false] => {
-                let less = self.graph.neg(b);
-                SeriesStep::AddConstant(self.register(a), self.scalar(less))
+    /// Computes a sum of scaled terms; what others are of, too, is a term by itself.
+    fn sum(&mut self, id: Id) -> Register {
+        let (uses, places) = (&self.uses, &self.places);
+        let is_whole = |it: Id| uses.get(it.index()) != Some(&1) || places.contains_key(&it);
+        let Terms { each, constant } = Terms::of(&mut self.graph, id, is_whole);
+        let constant = (self.graph.number_of(constant) != Some(0.0)).then(|| self.scalar(constant));
+        let mut terms: Vec<(Factor, Register)> = Vec::new();
+        for (factor, of) in each {
+            let register = self.register(of);
+            match self.graph.number_of(factor) {
+                Some(0.0) => {}
+                Some(1.0) => terms.push((Factor::One, register)),
+                Some(-1.0) => terms.push((Factor::MinusOne, register)),
+                _ => terms.push((Factor::Of(self.scalar(factor)), register)),
             }
-            _ => match self.scaled(b) {
-                Some((s, b)) => {
-                    let (a, b) = (self.register(a), self.register(b));
-                    SeriesStep::SubScaled(a, self.scalar(s), b)
-                }
-                None => SeriesStep::Sub(self.register(a), self.register(b)),
-            },
+        }
+        self.sum_of(terms, constant)
+    }
+
+    /// Computes a sum of these terms by the shortest instruction that there is.
+    fn sum_of(&mut self, mut terms: Vec<(Factor, Register)>, constant: Option<Scalar>) -> Register {
+        use Factor::{MinusOne, Of, One};
+        while terms.len() > MOST_TERMS {
+            let rest = terms.split_off(MOST_TERMS);
+            let sum = self.sum_of(terms, None);
+            terms = [(One, sum)].into_iter().chain(rest).collect();
+        }
+        let step = match (&terms[..], constant) {
+            ([(One, a)], None) => return *a,
+            ([(MinusOne, a)], None) => SeriesStep::Neg(*a),
+            ([(Of(s), a)], None) => SeriesStep::Scale(*s, *a),
+            ([(One, a)], Some(s)) => SeriesStep::AddConstant(*a, s),
+            ([(MinusOne, a)], Some(s)) => SeriesStep::FromConstant(s, *a),
+            ([(One, a), (One, b)], None) => SeriesStep::Add(*a, *b),
+            ([(One, a), (MinusOne, b)] | [(MinusOne, b), (One, a)], None) => {
+                SeriesStep::Sub(*a, *b)
+            }
+            ([(One, a), (Of(s), b)] | [(Of(s), b), (One, a)], None) => {
+                SeriesStep::AddScaled(*a, *s, *b)
+            }
+            ([(Of(s), a), (Of(r), b)], None) => SeriesStep::TwoScaled(*s, *a, *r, *b),
+            _ => {
+                let terms: Vec<(Scalar, Register)> =
+                    terms.iter().map(|(factor, a)| (self.factor(*factor), *a)).collect();
+                SeriesStep::Sum(Sum::new(&terms, constant))
+            }
         };
         self.push(step)
     }
 
-    fn product(&mut self, a: Id, b: Id) -> Register {
-        let step = match [self.is_series(a), self.is_series(b)] {
-            [false, _] => SeriesStep::Scale(self.scalar(a), self.register(b)),
-            [_, false] => SeriesStep::Scale(self.scalar(b), self.register(a)),
-            _ if a == b => SeriesStep::Square(self.register(a)),
-            _ => SeriesStep::Mul(self.register(a), self.register(b)),
+    /// The place of a factor.
+    fn factor(&mut self, factor: Factor) -> Scalar {
+        let value = match factor {
+            Factor::Of(scalar) => return scalar,
+            Factor::One => 1.0,
+            Factor::MinusOne => -1.0,
         };
-        self.push(step)
+        let id = self.graph.number(value);
+        self.scalar(id)
     }
 
     fn function(&mut self, function: Function, a: Id) -> Register {
@@ -239,18 +253,6 @@ impl Making {
         self.graph.level(id) == Level::Motion
     }
 
-    /// The factor and the series of a product that nothing else uses, so that it needs no register.
-    fn scaled(&mut self, id: Id) -> Option<(Id, Id)> {
-        if self.uses.get(id.index()) != Some(&1) || self.places.contains_key(&id) {
-            return None;
-        }
-        match self.graph.node(id) {
-            Node::Mul(a, b) if !self.is_series(a) => Some((a, b)),
-            Node::Mul(a, b) if !self.is_series(b) => Some((b, a)),
-            _ => None,
-        }
-    }
-
     fn push(&mut self, step: SeriesStep) -> Register {
         let register = self.registers;
         self.registers += step.registers();
@@ -264,6 +266,14 @@ impl Making {
         self.growing.push(register);
         register
     }
+}
+
+/// The factor of a term.
+#[derive(Debug, Clone, Copy)]
+enum Factor {
+    One,
+    MinusOne,
+    Of(Scalar),
 }
 
 /// How often each value is used by what the motion needs.

@@ -26,11 +26,20 @@ pub struct Oscillator<L, const D: usize, const N: usize, const AUTONOMOUS: bool>
 }
 
 /// The values of a text at a point.
+#[derive(Debug)]
 pub(crate) struct Values<L> {
     /// The numbers of the case and of the mode.
     pub(crate) numbers: Vec<L>,
     /// The registers.
     pub(crate) registers: Vec<L>,
+}
+
+impl<L> Values<L> {
+    /// Room for them, before they are computed.
+    #[inline(always)]
+    pub(crate) fn room() -> Self {
+        Values { numbers: Vec::new(), registers: Vec::new() }
+    }
 }
 
 in_lanes! {
@@ -131,20 +140,29 @@ in_lanes! {
             next
         }
 
-        /// The numbers of the case and of a mode, and the values of the registers in a state.
-        pub(crate) fn values(&self, mode: &TextMode<L>, time: L, state: &[L; N]) -> Values<L> {
+        /// Computes the numbers of the case and of a mode, and the values of the registers in a state.
+        pub(crate) fn compute(
+            &self,
+            values: &mut Values<L>,
+            mode: &TextMode<L>,
+            time: L,
+            state: &[L; N],
+        ) {
             let program = self.program;
-            let mut numbers = self.numbers.clone();
-            complete(program, mode, &self.pulses(mode), &mut numbers);
-            let mut values = vec![L::splat(0.0); program.registers];
+            let Values { numbers, registers } = values;
+            numbers.clear();
+            numbers.extend_from_slice(&self.numbers);
+            complete(program, mode, &self.pulses(mode), numbers);
+            if registers.is_empty() {
+                registers.resize(program.registers, L::splat(0.0));
+            }
             for (place, at) in program.layout.iter().enumerate() {
-                values[place] = state[*at];
+                registers[place] = state[*at];
             }
             for step in &program.series {
                 let step = Instruction { is_kept: false, ..*step };
-                carry_out(&step, &numbers, (mode, time + self.later), (&mut values, &mut []), 0);
+                carry_out(&step, numbers, (mode, time + self.later), (registers, &mut []), 0);
             }
-            Values { numbers, registers: values }
         }
     }
 

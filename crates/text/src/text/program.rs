@@ -189,7 +189,7 @@ fn operands(of_observed: &[Instruction], observed: &[Option<Place>]) -> Vec<Regi
             .iter()
             .any(|it| (it.register..it.register + it.step.registers()).contains(register))
     };
-    let taken = of_observed.iter().flat_map(|it| it.step.series_operands());
+    let taken = of_observed.iter().flat_map(|it| it.step.operands());
     let are = observed.iter().filter_map(|it| match it {
         Some(Place::Series(register)) => Some(*register),
         _ => None,
@@ -233,7 +233,7 @@ fn of_frictions(frictions: &[FrictionPlaces]) -> impl Iterator<Item = Place> + '
 /// Instructions that know which of their registers are asked for as series.
 fn kept(series: Vec<Instruction>, of_guards: &[Place]) -> Vec<Instruction> {
     let folded = series.iter().filter(|it| it.step.folds());
-    let folded: Vec<Register> = folded.flat_map(|it| it.step.operands().0).collect();
+    let folded: Vec<Register> = folded.flat_map(|it| it.step.operands()).collect();
     let is_kept = |it: &Instruction| {
         let own = it.register..it.register + it.step.registers();
         let is_asked_for = |place: &Place| match place {

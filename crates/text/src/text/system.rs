@@ -9,7 +9,7 @@ use crate::text::content::Section;
 use crate::text::instructions::Place;
 use crate::text::interpreter::at;
 use crate::text::mode::{TextEvent, TextMode};
-use crate::text::oscillator::Oscillator;
+use crate::text::oscillator::{Oscillator, Values};
 use crate::text::program::Program;
 use crate::text::sums::Sums;
 
@@ -144,7 +144,8 @@ impl<const D: usize, const N: usize, const AUTONOMOUS: bool> TextSystem<D, N, AU
     /// Whether a state is behind the bound of an event, so that no motion starts there.
     pub fn is_behind(&self, time: f64, state: [f64; N]) -> bool {
         let single = self.single();
-        let values = single.values(&TextMode::default(), time, &state);
+        let mut values = Values::room();
+        single.compute(&mut values, &TextMode::default(), time, &state);
         let value = |place: &Place| at(*place, &values.numbers, &values.registers);
         self.program.lasts.iter().any(|it| value(it) < 0.0)
     }
