@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::flow::{Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, cycle};
+use crate::flow::{Breakdown, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, cycle};
 
 /// Where and why a case failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -193,7 +193,15 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
 
     /// Tells where it is when it cannot go on, and why.
     pub fn stuck(&self) -> Failure<S::State> {
-        let breakdown = self.motion.breakdown(self.system, &self.step, 0);
+        let breakdown = match self.motion.breakdown(self.system, &self.step, 0) {
+            // A motion that was followed beside others comes without its last step: another one gets nowhere either.
+            Some(Breakdown::NoProgress) => {
+                let (mut motion, mut step) = (self.motion, Step::default());
+                motion.single_step(self.system, self.system.period(), self.tolerance, &mut step);
+                motion.breakdown(self.system, &step, 0)
+            }
+            other => other,
+        };
         let out_of = match self.progress.steps {
             STEPS_PER_CYCLE.. => Reason::TooManySteps,
             _ => Reason::OutOfSteps,

@@ -212,7 +212,7 @@ fn a_description_whose_parts_do_not_fit_together_says_which() {
     // The roles of another model name what this one does not have, and its histories have no coordinates.
     let faults = OTHER.faults(0);
     for part in [
-        "a section point has 1 to 6 coordinates, not 0",
+        "a section point has 1 to 8 coordinates, not 0",
         "a role names parameter 7 of 1, counted from 0",
         "a role names output 0 of 0, counted from 0",
     ] {

@@ -104,13 +104,10 @@ fn every_motion_of_the_neutral_family_with_dry_friction_repeats() {
         let [x, v, _] = orbit.section[0];
         assert!((x - (f + 4.0 / 3.0 + a)).abs() < 1e-9 && v.abs() < 1e-9, "{a}: {x} {v}");
     }
-    // Beside the family a motion sticks, and nears the end of the family.
-    for (a, end) in [(-0.5, -1.0 / 3.0), (0.4, 1.0 / 3.0 - 2.0 * f)] {
-        let orbit = begun(a);
-        assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1), "{a}");
-        let [x, ..] = orbit.section[0];
-        assert!((x - (f + 4.0 / 3.0 + end)).abs() < 1e-4, "{a}: {x}");
-    }
+    // Beside the family a motion sticks, and nears the end of the family by less and less.
+    let orbit = begun(-0.5);
+    assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+    assert!((orbit.section[0][0] - (f + 1.0)).abs() < 1e-4, "{}", orbit.section[0][0]);
 }
 
 /// One step of the classical Runge-Kutta method of the valve in flight, with its flow `q`.

@@ -277,7 +277,7 @@ fn a_section_of_eight_coordinates_has_the_closed_form_of_its_modes() {
         assert!(multipliers.iter().all(|it| (it.abs() - decay).abs() < 1e-10), "{multipliers:?}");
     }
     let faults = model(&row_of(5)).expect_err("ten states");
-    assert!(faults[0].message.contains("more than 8 states"), "{faults:?}");
+    assert!(faults.iter().any(|it| it.message.contains("more than 8 states")), "{faults:?}");
 }
 
 /// What is measured does not touch the motion: the same bits with outputs and without.
