@@ -30,7 +30,12 @@ pub fn derived(model: &'static Description) -> Vec<(&'static str, String)> {
         ("cost", cost(program)),
     ];
     if text.misfits.is_empty() {
-        all.push(("units", "fit each other, as far as they are given".into()));
+        let states = text.states.iter().map(|it| it.unit.as_str());
+        let parameters = text.parameters.iter().filter_map(|it| it.unit.as_deref());
+        let are_given = states.chain(parameters).any(|it| it != "1");
+        let told =
+            if are_given { "fit each other, as far as they are given" } else { "none are given" };
+        all.push(("units", told.into()));
     }
     all.extend(text.misfits.iter().map(|it| ("units", it.to_string())));
     all

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use capsulemap_models::description::{
     Chart, CoordinateDescription, Description, DriveRoles, Equations, MotionDescription,
-    OutputDescription, ParameterDescription, Parameters, Presence, Roles, Rules, Signal,
+    OutputDescription, ParameterDescription, Parameters, Presence, Remark, Roles, Rules, Signal,
     SignalKind,
 };
 use capsulemap_models::quantity::shown::shown;
@@ -120,9 +120,24 @@ pub fn description(program: &'static Program, equations: Equations) -> &'static 
             defect: first_of_all(text) + DEFECT,
             section_residual: first_of_all(text) + SECTION_RESIDUAL,
         },
-        rules: Rules::NONE,
+        rules: Rules { remarks: remarks_on_units, ..Rules::NONE },
         equations: Some(equations),
     }))
+}
+
+/// That the units of a text do not fit each other, with the first place.
+fn remarks_on_units(parameters: &Parameters) -> Vec<Remark> {
+    let misfits = &program_of(parameters.model()).text.misfits;
+    let told = misfits.first().map(|first| Remark {
+        about: Vec::new(),
+        text: match misfits.len() {
+            1 => format!("units in the text of the oscillator: {first}"),
+            count => format!(
+                "units in the text of the oscillator, at {count} places, which `capsulemap check` tells: {first}"
+            ),
+        },
+    });
+    told.into_iter().collect()
 }
 
 /// The quantity of a state somewhere.

@@ -83,6 +83,7 @@ impl<'s, 'a> Fitting<'s, 'a> {
 
     /// Looks at everything that a text says.
     fn all(&mut self, parsed: &Parsed<'_, 'a>, table: &DeTable<'a>, text: &Text) {
+        self.unknown_units(parsed, text);
         for it in &parsed.definitions {
             self.named(&it.name);
         }
@@ -121,6 +122,24 @@ impl<'s, 'a> Fitting<'s, 'a> {
             let found = self.expects(Some(value), &unit, &format!("the output {}", it.name));
             let known = if unit == Known::Nothing { found } else { unit };
             self.names.insert(it.name.clone(), known);
+        }
+    }
+
+    /// Tells names in units of which nothing is known.
+    fn unknown_units(&mut self, parsed: &Parsed<'_, 'a>, text: &Text) {
+        let states = parsed.states.iter().zip(text.states.iter().map(|it| Some(&it.unit)));
+        let parameters = text.parameters.iter().map(|it| it.unit.as_ref());
+        let parameters = parsed.parameters.iter().zip(parameters);
+        let outputs = parsed.outputs.iter().zip(text.outputs.iter().map(|it| it.unit.as_ref()));
+        for (it, unit) in states.chain(parameters).chain(outputs) {
+            let Some(unit) = unit else { continue };
+            for unknown in Unit::of(unit).unknown() {
+                let name = &it.name;
+                let message = format!(
+                    "the unit of {name}: nothing is known of {unknown:?}, which counts as a unit of its own"
+                );
+                self.misfit(it.at, message);
+            }
         }
     }
 

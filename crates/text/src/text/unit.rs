@@ -160,13 +160,34 @@ impl Unit {
         self.powers.is_empty()
     }
 
+    /// What it is made of that is no unit that is known.
+    pub fn unknown(&self) -> impl Iterator<Item = &str> {
+        let names = self.powers.keys().map(String::as_str);
+        names.filter(|name| !BASE.contains(name))
+    }
+
+    /// Its size as a prefix of one of the units that it is made of, where it is one.
+    fn prefix(&self) -> Option<(&str, char)> {
+        let size = self.size?;
+        self.powers.iter().filter(|it| it.0 != "kg").find_map(|(base, power)| {
+            let is_it = |factor: f64| (libm::pow(factor, *power) / size - 1.0).abs() < SAME;
+            let prefix = PREFIXES.iter().find(|it| is_it(it.1))?;
+            Some((base.as_str(), prefix.0))
+        })
+    }
+
     /// How it is written, with its size where that is not one.
     pub fn written(&self) -> String {
+        let prefix = self.prefix();
         let part = |sign: f64| {
             let of_sign = self.powers.iter().filter(|it| it.1 * sign > 0.0);
-            let words = of_sign.map(|(base, power)| match power.abs() {
-                1.0 => base.clone(),
-                power => format!("{base}{power}"),
+            let words = of_sign.map(|(base, power)| {
+                let prefixed = prefix.filter(|it| it.0 == base);
+                let name = prefixed.map_or(base.clone(), |it| format!("{}{base}", it.1));
+                match power.abs() {
+                    1.0 => name,
+                    power => format!("{name}{power}"),
+                }
             });
             words.collect::<Vec<_>>()
         };
@@ -178,7 +199,9 @@ impl Unit {
             _ => format!("{above}/({})", below.join(" ")),
         };
         match self.size {
-            Some(size) if (size - 1.0).abs() >= SAME => format!("{size} {plain}"),
+            Some(size) if prefix.is_none() && (size - 1.0).abs() >= SAME => {
+                format!("{size} {plain}")
+            }
             _ => plain,
         }
     }

@@ -46,7 +46,15 @@ fn units_are_products_of_powers_of_others() {
     for (a, b) in other {
         assert!(!Unit::of(a).fits(&Unit::of(b)), "{a} {b}");
     }
-    let written = [("N/m", "kg/s2"), ("mm", "0.001 m"), ("W/m", "kg m/s3"), ("1/(m s)", "1/(m s)")];
+    let written = [
+        ("N/m", "kg/s2"),
+        ("mm", "mm"),
+        ("km^2/s", "km2/s"),
+        ("1/ms", "1/ms"),
+        ("g", "0.001 kg"),
+        ("W/m", "kg m/s3"),
+        ("1/(m s)", "1/(m s)"),
+    ];
     for (unit, is) in written {
         assert_eq!(Unit::of(unit).written(), is);
     }
@@ -110,11 +118,7 @@ share = { value = "most/(k*1e-6*gap^2)", unit = "1" }
 fn what_does_not_fit_is_told_with_its_place_and_not_refused() {
     assert_eq!(misfits(FITS), [""; 0]);
     let wrong = [
-        (
-            "x = \"1000*v\"",
-            "x = \"v\"",
-            "line 21, column 6: the rate of x is in m/s, not in 0.001 m/s",
-        ),
+        ("x = \"1000*v\"", "x = \"v\"", "line 21, column 6: the rate of x is in m/s, not in mm/s"),
         (
             "- k*stretch - f)/m",
             "- k*stretch - f)",
@@ -127,11 +131,11 @@ fn what_does_not_fit_is_told_with_its_place_and_not_refused() {
             "line 22, column 13: sin is of a number or an angle, not of 1/s",
         ),
         ("m*v^2/2 +", "m*v/2 +", "line 17, column 19: kg m/s and kg m2/s2 are added"),
-        ("x < gap", "v < gap", "line 30, column 10: 0.001 m and m/s are compared"),
+        ("x < gap", "v < gap", "line 30, column 10: mm and m/s are compared"),
         (
             "x = \"gap\", v",
             "x = \"0.5*w\", v",
-            "line 31, column 16: what becomes of x is in 1/s, not in 0.001 m",
+            "line 31, column 16: what becomes of x is in 1/s, not in mm",
         ),
         ("\"rad/s\"", "\"rad\"", "line 4, column 22: `every` of the section is in 1, not in s"),
         (
@@ -154,4 +158,7 @@ fn what_does_not_fit_is_told_with_its_place_and_not_refused() {
         let found = misfits.iter().any(|it| it.starts_with(told));
         assert!(if told.is_empty() { misfits.is_empty() } else { found }, "{other}: {misfits:?}");
     }
+    let told = "nothing is known of \"smoot\", which counts as a unit of its own";
+    let unknown = misfits(&FITS.replace("unit = \"J\"", "unit = \"smoot J\""));
+    assert!(unknown.iter().any(|it| it.contains(told)), "{unknown:?}");
 }
