@@ -29,7 +29,7 @@ pub struct Check {
 impl Check {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let mut text = format!("{}: no fault\n", printable(&self.file));
+        let mut text = String::new();
         let model = match is_system_alone(&self.file)? {
             true => read_system(&self.file)?,
             false => {
@@ -39,7 +39,15 @@ impl Check {
             }
         };
         text.push_str(&of_model(model));
-        print(&text)
+        let misfits = match model.equations {
+            Some(_) => capsulemap_text::derived::misfits(model).len(),
+            None => 0,
+        };
+        let heading = match misfits {
+            0 => "no fault".to_owned(),
+            count => format!("no fault, {} on units", counted(count, "note")),
+        };
+        print(&format!("{}: {heading}\n{text}", printable(&self.file)))
     }
 }
 

@@ -13,6 +13,9 @@ use super::switched::{Event, Field, Stroboscopic, Switched};
 /// The engine makes of it the system in numbers of any kind: one `f64`, several cases side by side, or numbers
 /// with derivatives along the section point and along parameters.
 pub trait System<const D: usize>: Clone + PartialEq + Debug + Send + Sync + 'static {
+    /// Whether its expansion is interpreted, so that cases are followed by more vectors side by side.
+    const IS_INTERPRETED: bool = false;
+
     /// Names a parameter.
     type Parameter: Copy + PartialEq + Debug + Send + Sync;
     /// What happens where a mode ends.

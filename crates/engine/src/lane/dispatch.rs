@@ -1,6 +1,6 @@
 //! Which vectors a piece of work runs on: chosen when the program runs, from what the processor has.
 
-use super::work::{AVX2, AVX512, BASELINE, Work};
+use super::work::{AVX2, AVX512, BASELINE, INTERPRETED, Work};
 #[cfg(target_arch = "x86_64")]
 use super::x86;
 use super::{Lane, Wide, pair::Pair};
@@ -96,7 +96,15 @@ impl Instructions {
     /// # Panics
     /// Where the processor does not have them.
     pub fn run<W: Work>(self, work: W) -> W::Output {
-        self.run_as::<Wide<Pair, BASELINE>, AVX2, AVX512, W>(work)
+        match const { W::IS_INTERPRETED } {
+            true => self.run_as::<
+                Wide<Pair, { INTERPRETED * BASELINE }>,
+                { INTERPRETED * AVX2 },
+                { INTERPRETED * AVX512 },
+                W,
+            >(work),
+            false => self.run_as::<Wide<Pair, BASELINE>, AVX2, AVX512, W>(work),
+        }
     }
 
     /// Does `work` on lanes of the baseline's kind, or on so many vectors of AVX2 or AVX-512.

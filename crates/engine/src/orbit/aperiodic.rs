@@ -102,6 +102,7 @@ struct Departures<'a, M, const D: usize> {
 }
 
 impl<M: System<D>, const D: usize> Work for Departures<'_, M, D> {
+    const IS_INTERPRETED: bool = M::IS_INTERPRETED;
     type Output = Vec<Result<Aperiodic<D>, Reason>>;
 
     #[inline(always)]

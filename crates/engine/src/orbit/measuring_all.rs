@@ -32,6 +32,7 @@ struct Requests<M: System<D>, const D: usize> {
 }
 
 impl<M: System<D>, const D: usize> Work for Requests<M, D> {
+    const IS_INTERPRETED: bool = M::IS_INTERPRETED;
     type Output = Vec<Measured<M, D>>;
 
     #[inline(always)]

@@ -33,6 +33,7 @@ struct Requests<'a, M: System<D>, const D: usize> {
 }
 
 impl<M: System<D>, const D: usize> Work for Requests<'_, M, D> {
+    const IS_INTERPRETED: bool = M::IS_INTERPRETED;
     type Output = Vec<Result<Passage<M::Event, D>, Reason>>;
 
     #[inline(always)]

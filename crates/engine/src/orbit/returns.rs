@@ -114,6 +114,7 @@ impl<E, const D: usize> CaseInLane<E, D> {
 }
 
 impl<M: System<D>, const D: usize> Work for WantedReturns<'_, M, D> {
+    const IS_INTERPRETED: bool = M::IS_INTERPRETED;
     type Output = Vec<Told<M::Event, D>>;
 
     #[inline(always)]

@@ -91,6 +91,7 @@ struct Supply<'a, M: System<D>, const D: usize> {
 }
 
 impl<'a, M: System<D>, const D: usize> Work for Supply<'a, M, D> {
+    const IS_INTERPRETED: bool = M::IS_INTERPRETED;
     type Output = Left<'a, M, D>;
 
     #[inline(always)]

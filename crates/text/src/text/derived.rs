@@ -5,10 +5,11 @@ use capsulemap_models::description::Description;
 use crate::text::content::{Section, Text};
 use crate::text::described::program_of;
 use crate::text::event_names::event_name;
+use crate::text::fault::Fault;
 use crate::text::program::Program;
 
 /// Instructions of a term of the paper's capsule as a text, beside which others are told.
-const OF_CAPSULE: usize = 16;
+const OF_CAPSULE: usize = 11;
 
 /// What follows from the text of a model: what each line is about, and it.
 ///
@@ -39,6 +40,14 @@ pub fn derived(model: &'static Description) -> Vec<(&'static str, String)> {
     }
     all.extend(text.misfits.iter().map(|it| ("units", it.to_string())));
     all
+}
+
+/// Where the units in the text of a model do not fit each other.
+///
+/// # Panics
+/// Where the model is of no text.
+pub fn misfits(model: &'static Description) -> &'static [Fault] {
+    &program_of(model).text.misfits
 }
 
 /// Names with their units, where they have some.

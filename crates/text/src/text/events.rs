@@ -38,7 +38,7 @@ in_lanes! {
                 Guard::Event(event) if self.program.crosses[event] || self.program.lasting[event].is_some()
             );
             let passes = [needs_before, moves_sides, has_frictions, may_last];
-            let mut values = Values::room();
+            let mut values = self.room.replace(Values::room());
             for (pass, is_needed) in passes.into_iter().enumerate() {
                 if !is_needed {
                     continue;
@@ -66,6 +66,7 @@ in_lanes! {
                     _ => self.note_jumps(due.here, &values, due.mode),
                 }
             }
+            self.room.replace(values);
             code
         }
 

@@ -1,5 +1,7 @@
 //! The oscillator of a text in numbers of any kind: its numbers, its pulses, and its values at a point.
 
+use std::cell::RefCell;
+
 use capsulemap_engine::in_lanes;
 use capsulemap_engine::lane::{Lane, SideBySide};
 
@@ -23,10 +25,12 @@ pub struct Oscillator<L, const D: usize, const N: usize, const AUTONOMOUS: bool>
     pub(crate) later: L,
     /// Of each pulse the times of its two edges in a cycle, the earlier first, and its value before.
     pub(crate) pulses: Vec<[L; 3]>,
+    /// Room for the values of an event, which are computed often.
+    pub(crate) room: RefCell<Values<L>>,
 }
 
 /// The values of a text at a point.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Values<L> {
     /// The numbers of the case and of the mode.
     pub(crate) numbers: Vec<L>,
@@ -55,6 +59,7 @@ in_lanes! {
                 numbers: one.numbers.iter().map(|it| L::splat(*it)).collect(),
                 later: L::splat(one.later),
                 pulses: one.pulses.iter().map(SideBySide::splat).collect(),
+                room: RefCell::new(Values::room()),
             }
         }
         fn lane(&self, index: usize) -> Self::One {
@@ -64,6 +69,7 @@ in_lanes! {
                 numbers: self.numbers.iter().map(|it| it.lane(index)).collect(),
                 later: self.later.lane(index),
                 pulses: self.pulses.iter().map(|it| it.lane(index)).collect(),
+                room: RefCell::new(Values::room()),
             }
         }
         fn put(&mut self, index: usize, one: &Self::One) {
@@ -106,7 +112,8 @@ in_lanes! {
                 pulses.push(edges(numbers[*duty], period, turns));
             }
             let later = period * L::splat(turns);
-            Oscillator { program, parameters: parameters.to_vec(), numbers, later, pulses }
+            let room = RefCell::new(Values::room());
+            Oscillator { program, parameters: parameters.to_vec(), numbers, later, pulses, room }
         }
 
         /// The values of the pulses.

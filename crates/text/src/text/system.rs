@@ -90,6 +90,8 @@ impl<const D: usize, const N: usize, const AUTONOMOUS: bool> PartialEq
 impl<const D: usize, const N: usize, const AUTONOMOUS: bool> System<D>
     for TextSystem<D, N, AUTONOMOUS>
 {
+    const IS_INTERPRETED: bool = true;
+
     type Parameter = usize;
     type Event = TextEvent;
     type State<L: Lane> = [L; N];

@@ -23,8 +23,11 @@ impl Terms {
                 terms.constant = graph.add(terms.constant, more);
                 continue;
             }
-            let node = if part != id && is_whole(part) { Node::Time } else { graph.node(part) };
-            match node {
+            if part != id && (is_whole(part) || is_distance(graph, part)) {
+                terms.add(graph, factor, part);
+                continue;
+            }
+            match graph.node(part) {
                 Node::Add(a, b) => left.extend([(factor, b), (factor, a)]),
                 Node::Sub(a, b) => left.extend([(graph.neg(factor), b), (factor, a)]),
                 Node::Neg(a) => left.push((graph.neg(factor), a)),
@@ -46,5 +49,15 @@ impl Terms {
             Some((known, _)) => *known = graph.add(*known, factor),
             None => self.each.push((factor, of)),
         }
+    }
+}
+
+/// Whether a value is how far a state is from a place, which is not taken apart: where both are near, it is small beside either.
+fn is_distance(graph: &Graph, id: Id) -> bool {
+    let is_state = |id: Id| matches!(graph.node(id), Node::State(_));
+    let stays = |id: Id| graph.level(id) != Level::Motion;
+    match graph.node(id) {
+        Node::Add(a, b) | Node::Sub(a, b) => is_state(a) && stays(b) || stays(a) && is_state(b),
+        _ => false,
     }
 }
