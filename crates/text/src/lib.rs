@@ -28,5 +28,6 @@
 pub mod text;
 
 pub use text::{
-    Fault, Text, derived, described, mode, model, program, read, read_in, system, tables, unit,
+    Fault, Text, derived, described, mode, model, program, read, read_in, sampled, system, tables,
+    unit,
 };

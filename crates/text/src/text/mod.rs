@@ -29,6 +29,7 @@ pub mod oscillator;
 mod parts;
 pub mod program;
 mod read;
+pub mod sampled;
 pub mod sums;
 mod switched;
 mod symbol;

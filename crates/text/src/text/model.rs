@@ -16,11 +16,13 @@ use crate::text::system::{Autonomous, Driven};
 use crate::text::tables::system_alone;
 
 /// Coordinates for which a point of the section of a small system has room.
-const FEW: usize = 3;
-/// The same of others.
-const MANY: usize = MOST_ON_SECTION;
+pub const FEW: usize = 3;
 /// Places of the states of those.
-const PLACES: usize = MANY + 2;
+pub const PLACES_OF_FEW: usize = FEW + 2;
+/// Coordinates for which a point of the section of others has room.
+pub const MANY: usize = MOST_ON_SECTION;
+/// Places of the states of those.
+pub const PLACES: usize = MANY + 2;
 
 /// The models that were made, by what differs between texts that differ.
 static KNOWN: Mutex<BTreeMap<String, &'static Description>> = Mutex::new(BTreeMap::new());
@@ -60,8 +62,12 @@ fn of_text(text: Text, tables: String) -> (&'static dyn Model, &'static Descript
     let description = description(program, equations);
     program.description.set(description).expect("it is described once");
     let model: &'static dyn Model = match (is_driven, room) {
-        (true, FEW) => Box::leak(Box::new(Of::<Driven<FEW, 5>, FEW>::described(description))),
-        (false, FEW) => Box::leak(Box::new(Of::<Autonomous<FEW, 5>, FEW>::described(description))),
+        (true, FEW) => {
+            Box::leak(Box::new(Of::<Driven<FEW, PLACES_OF_FEW>, FEW>::described(description)))
+        }
+        (false, FEW) => {
+            Box::leak(Box::new(Of::<Autonomous<FEW, PLACES_OF_FEW>, FEW>::described(description)))
+        }
         (true, _) => Box::leak(Box::new(Of::<Driven<MANY, PLACES>, MANY>::described(description))),
         (false, _) => {
             Box::leak(Box::new(Of::<Autonomous<MANY, PLACES>, MANY>::described(description)))

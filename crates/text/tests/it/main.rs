@@ -14,5 +14,6 @@ mod lasting;
 mod more;
 mod outputs;
 mod random_texts;
+mod sampled;
 mod six;
 mod units;
