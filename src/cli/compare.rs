@@ -4,17 +4,21 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::asked_case::{Takes, asked_case};
 use super::compare_report::{as_json, explained, told_of};
-use super::experiment_figures::comparison_plot;
+use super::experiment_figures::{comparison_plot, text_comparison_plot};
 use super::failure::Failure;
 use super::files;
-use super::synthesize::case_of;
 use super::terminal::print;
+use super::text_compare;
 use super::varied::{Varied, threads, varied};
 use crate::experiment::least_squares::Loss;
-use crate::experiment::{Comparison, Effort, Free, Weights, compare, explain};
-use crate::figure::plot::draw_plot;
+use crate::experiment::{Effort, Free, TextRecord, Weights, compare, compare_text, explain};
+use crate::figure::plot::{Plot, draw_plot};
 use crate::figure::{Format, Place};
+use crate::motion::Case;
+use crate::of::default_model;
+use crate::orbit::Protocol;
 use crate::quantity::printable::printable;
 
 const EXAMPLES: &str = "\
@@ -75,14 +79,21 @@ pub struct Compare {
 impl Compare {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
+        let asked = asked_case(&self.study, self.case, Takes::CapsuleAndTexts);
+        let model = asked.as_ref().map_or_else(|_| default_model(), |it| it.0.parameters.model());
         let mut faults = Vec::new();
+        let choices = self.explain.iter();
         let choices: Vec<Vec<Varied>> =
-            self.explain.iter().map(|text| varied("--explain", text, &mut faults)).collect();
+            choices.map(|text| varied("--explain", text, model, &mut faults)).collect();
         if !faults.is_empty() {
             return Err(Failure::requests(&faults));
         }
+        if model.equations.is_some() {
+            let (case, protocol) = asked?;
+            return self.compare_text(&case, &protocol);
+        }
         let recording = files::motion(&self.recording)?;
-        let (case, protocol) = case_of(&self.study, self.case)?;
+        let (case, protocol) = asked?;
         let comparison = compare(&recording, &case, &protocol)
             .map_err(|why| Failure::of_file(&self.recording, why))?;
         let effort =
@@ -93,7 +104,8 @@ impl Compare {
             .map_err(|why| Failure::of_file(&self.recording, why))?;
         let mut paths = Vec::new();
         if let Some(output) = &self.output {
-            paths = self.draw(&comparison, output)?;
+            let plot = |name: &str| comparison_plot(name, &comparison, &self.about(), self.cycles);
+            paths = self.draw(plot, output)?;
         }
         if self.json {
             return print(&format!("{:#}\n", as_json(&comparison, &explanations)));
@@ -108,9 +120,46 @@ impl Compare {
         print(&text)
     }
 
+    /// Compares with the oscillator of a text.
+    fn compare_text(&self, case: &Case, protocol: &Protocol) -> Result<(), Failure> {
+        if !self.explain.is_empty() {
+            let why = "--explain: is for the capsule; `capsulemap fit` finds parameters of an oscillator that is given as text";
+            return Err(Failure::request(why));
+        }
+        let recording = files::states(&self.recording, case.parameters.model())?;
+        let of_file = |why| Failure::of_file(&self.recording, why);
+        let record = TextRecord::new(&recording, case).map_err(of_file)?;
+        let doubts = record.doubts(&recording);
+        let comparison = compare_text(&recording, &record, case, protocol).map_err(of_file)?;
+        let mut paths = Vec::new();
+        if let Some(output) = &self.output {
+            let about = self.about();
+            let plot = |name: &str| text_comparison_plot(name, &comparison, &about, self.cycles);
+            paths = self.draw(plot, output)?;
+        }
+        if self.json {
+            return print(&format!("{:#}\n", text_compare::as_json(&comparison, &doubts)));
+        }
+        let mut text = text_compare::told_of(&comparison, &doubts);
+        for path in paths {
+            text += &format!("{}\n", printable(&path));
+        }
+        print(&text)
+    }
+
+    /// What the overlay shows.
+    fn about(&self) -> String {
+        format!(
+            "{} beside the simulation of {}",
+            printable(&self.recording),
+            printable(&self.study)
+        )
+    }
+
+    /// Draws the overlay, which is called after its file.
     fn draw(
         &self,
-        comparison: &Comparison,
+        plot: impl Fn(&str) -> Plot,
         output: &std::path::Path,
     ) -> Result<Vec<PathBuf>, Failure> {
         let folder = crate::store::folder(output);
@@ -127,13 +176,7 @@ impl Compare {
         };
         let place =
             Place { folder, formats: &[Format::Png, Format::Pdf], overwrite: self.overwrite };
-        let about = format!(
-            "{} beside the simulation of {}",
-            printable(&self.recording),
-            printable(&self.study)
-        );
-        let files = draw_plot(&comparison_plot(&name, comparison, &about, self.cycles), &place)
-            .map_err(Failure::request)?;
+        let files = draw_plot(&plot(&name), &place).map_err(Failure::request)?;
         Ok(files.paths)
     }
 }

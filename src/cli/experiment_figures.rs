@@ -6,7 +6,8 @@ use crate::experiment::identification::Evidence;
 use crate::experiment::line::Line;
 use crate::experiment::recording::GAP;
 use crate::experiment::{
-    Coasting, Comparison, Difference, FreeVibration, Given, Recording, Signal, Test, Verdict,
+    Coasting, Comparison, Difference, FreeVibration, Given, Recording, Sampling, Signal,
+    StateDifference, Test, TextComparison, Verdict,
 };
 use crate::figure::plot::{Look, Plot, PlotPanel, Series};
 use crate::quantity::Dimension;
@@ -191,9 +192,9 @@ fn curve(fastest: f64, law: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     speeds.map(|v| (v, law(v))).collect()
 }
 
-/// The points of a curve, broken at the gaps of the record.
-fn broken(points: Vec<(f64, f64)>, comparison: &Comparison) -> Vec<(f64, f64)> {
-    let longest = GAP * comparison.sampling.interval;
+/// The points of a curve, broken at the gaps of a record.
+fn broken(points: Vec<(f64, f64)>, sampling: &Sampling) -> Vec<(f64, f64)> {
+    let longest = GAP * sampling.interval;
     let mut all = Vec::with_capacity(points.len());
     for (place, point) in points.iter().enumerate() {
         if place > 0 && point.0 - points[place - 1].0 > longest {
@@ -213,12 +214,49 @@ pub fn comparison_plot(name: &str, comparison: &Comparison, about: &str, cycles:
     let is_cut = count < comparison.times.len();
     let mut rows: Vec<Vec<PlotPanel>> =
         comparison.differences.iter().map(|it| vec![signal_panel(it, comparison, count)]).collect();
-    if is_cut && let Some(first) = rows.first_mut().and_then(|row| row.first_mut()) {
-        let whole = comparison.cycles.round();
-        let decimals = usize::from((comparison.cycles - whole).abs() >= 0.05);
-        first.note = format!("{cycles} of {:.decimals$} cycles", comparison.cycles);
+    if is_cut {
+        note_cut(&mut rows, cycles, comparison.cycles);
     }
     Plot { name: name.to_owned(), about: about.to_owned(), rows, height: 0.8 * HEIGHT }
+}
+
+/// Notes in the first panel how many of all cycles are shown.
+fn note_cut(rows: &mut [Vec<PlotPanel>], cycles: u64, all: f64) {
+    if let Some(first) = rows.first_mut().and_then(|row| row.first_mut()) {
+        let decimals = usize::from((all - all.round()).abs() >= 0.05);
+        first.note = format!("{cycles} of {all:.decimals$} cycles");
+    }
+}
+
+/// A comparison with an oscillator given as text: a panel for each recorded state, recorded and simulated, over so many cycles.
+pub fn text_comparison_plot(name: &str, it: &TextComparison, about: &str, cycles: u64) -> Plot {
+    let span = cycles as f64 * it.cycle;
+    let count = it.times.partition_point(|time| *time <= span);
+    let differences = it.differences.iter();
+    let mut rows: Vec<Vec<PlotPanel>> =
+        differences.map(|state| vec![state_panel(state, it, count)]).collect();
+    if count < it.times.len() {
+        note_cut(&mut rows, cycles, it.times[it.times.len() - 1] / it.cycle);
+    }
+    Plot { name: name.to_owned(), about: about.to_owned(), rows, height: 0.8 * HEIGHT }
+}
+
+/// A state, recorded and simulated, over so many samples.
+fn state_panel(state: &StateDifference, it: &TextComparison, count: usize) -> PlotPanel {
+    let [recorded, simulated] = [&state.recorded, &state.simulated]
+        .map(|values| broken(scaled(&it.times[..count], &values[..count], [1.0; 2]), &it.sampling));
+    let states = &it.motion.parameters.model().coordinates;
+    let has_units = states.iter().any(|it| it.start.dimension != Dimension::Number);
+    let time = if has_units { "Time (s)" } else { "Time" };
+    let label = match state.channel.dimension {
+        Dimension::Number => state.channel.name.to_owned(),
+        dimension => format!("{} ({})", state.channel.name, dimension.unit()),
+    };
+    let all = vec![
+        series("recorded", Look::Record, recorded),
+        series("simulated", Look::Simulated, simulated),
+    ];
+    panel(time, &label, all)
 }
 
 /// A signal, recorded and simulated, over so many samples.
@@ -240,7 +278,7 @@ fn signal_panel(it: &Difference, comparison: &Comparison, count: usize) -> PlotP
     let unit = unit.replace("m/s2", "m/s$^2$");
     let times = &comparison.times[..count];
     let [recorded, simulated] = [&it.recorded, &it.simulated]
-        .map(|values| broken(scaled(times, &values[..count], [1.0, factor]), comparison));
+        .map(|values| broken(scaled(times, &values[..count], [1.0, factor]), &comparison.sampling));
     let mut all = vec![
         series("recorded", Look::Record, recorded),
         series("simulated", Look::Simulated, simulated),

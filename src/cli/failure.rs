@@ -10,7 +10,7 @@ use crate::quantity::printable::printable;
 use crate::store::StoreError;
 
 /// A command that was not carried out.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Failure {
     message: String,
     code: u8,

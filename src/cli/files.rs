@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::failure::Failure;
+use crate::description::Description;
 use crate::experiment::{Column, Presence, Recording, Signal};
 use crate::quantity::printable::printable;
 use crate::quantity::{Dimension, parse_quantity};
@@ -47,6 +48,18 @@ pub fn motion(path: &Path) -> Result<Recording, Failure> {
     let signals = Signal::ALL.map(|it| optional_column(it.name(), it.dimension()));
     let current = optional_column("current", Dimension::Current);
     let known: Vec<Column> = [times, current].into_iter().chain(signals).collect();
+    recording(path, &known, LEAST_ROWS)
+}
+
+/// The recording of a motion of an oscillator given as text: times, and any of its states.
+///
+/// Times are in s, or plain numbers where all states are.
+pub fn states(path: &Path, model: &'static Description) -> Result<Recording, Failure> {
+    let are_numbers = model.coordinates.iter().all(|it| it.start.dimension == Dimension::Number);
+    let of_time = if are_numbers { Dimension::Number } else { Dimension::Time };
+    let times = Column { presence: Presence::Required, ..optional_column("t", of_time) };
+    let states = model.coordinates.iter().map(|it| optional_column(it.name, it.start.dimension));
+    let known: Vec<Column> = [times].into_iter().chain(states).collect();
     recording(path, &known, LEAST_ROWS)
 }
 

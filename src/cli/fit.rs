@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::asked_case::{Takes, asked_case};
 use super::failure::Failure;
 use super::files;
 use super::fit_report::{as_json, table, warnings as warnings_of};
 use super::identify_report::shown;
-use super::synthesize::case_of;
 use super::terminal::print;
 use super::varied::{Varied, threads, varied};
 use crate::capsule::CapsuleParameters as _;
+use crate::description::Description;
 use crate::experiment::comparison::signals_of;
 use crate::experiment::course::varies;
 use crate::experiment::identification::parameter_file;
@@ -19,8 +20,10 @@ use crate::experiment::least_squares::Loss;
 use crate::experiment::simulated_span::check_span;
 use crate::experiment::{
     Constant, Effort, Free, Frequencies, Harmonic, Identified, MotionFit, Recorded, Recording,
-    Sampling, Weights, fit_motion, harmonic,
+    Sampling, TextRecord, Weights, fit_motion, fit_text, harmonic,
 };
+use crate::motion::Case;
+use crate::of::default_model;
 use crate::quantity::printable::printable;
 
 const EXAMPLES: &str = "\
@@ -39,6 +42,8 @@ that of the third differences of the residuals. Outliers are samples more than f
 little, errors and intervals are scaled by Huber's formula for such fits, and the \
 misfit is that of the others, by the median.";
 
+/// Cycles of the drive that are used unless another number is given.
+const CYCLES: u64 = 6;
 /// A residual of this many standard deviations of the noise begins to count less, with --robust.
 const ROBUST: f64 = 2.0;
 
@@ -55,9 +60,9 @@ pub struct Fit {
     /// The parameters to fit, each with its bounds.
     #[arg(long, value_name = "NAME=FROM..TO,...", required = true)]
     vary: Vec<String>,
-    /// Cycles from the beginning of each recording that are used.
-    #[arg(long, default_value_t = 6, value_parser = clap::value_parser!(u64).range(1..))]
-    cycles: u64,
+    /// Cycles of the drive from the beginning of each recording that are used; 6 unless it is given, and all where there is no drive.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
+    cycles: Option<u64>,
     /// Starts of the search within the bounds, the first at the values of the study.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=1000))]
     starts: u64,
@@ -78,28 +83,23 @@ pub struct Fit {
 impl Fit {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let varied = self.varied()?;
+        let cases = self.cases();
+        let text = cases.first().and_then(text_of);
+        let varied = self.varied(text.unwrap_or_else(default_model))?;
         let free: Vec<Free> = varied.iter().map(|it| it.free).collect();
         if let Some(output) = &self.output {
             files::check_free(output, self.overwrite)?;
         }
-        let read = (0..self.recordings.len()).map(|i| self.recorded(i));
-        let (recorded, warnings): (Vec<Recorded>, Vec<Vec<String>>) =
-            read.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
-        let loss = if self.robust { Loss::SoftL1(ROBUST) } else { Loss::Squares };
-        let effort = Effort {
-            loss,
-            weights: Weights::Noise,
-            starts: self.starts as usize,
-            threads: threads(),
+        let (fit, warnings) = match text {
+            Some(model) => self.text_fit(&cases, model, &free)?,
+            None => self.capsule_fit(&cases, &free)?,
         };
-        let fit = fit_motion(&recorded, &free, &effort).map_err(Failure::request)?;
         if let Some(output) = &self.output {
             files::put(output, &parameter_file(&self.identified(&fit), &[]))?;
         }
         let names = self.names();
         let of_fit = warnings_of(&fit, &varied, &names, self.robust);
-        let warnings: Vec<String> = warnings.into_iter().flatten().chain(of_fit).collect();
+        let warnings: Vec<String> = warnings.into_iter().chain(of_fit).collect();
         if self.json {
             return print(&format!("{:#}\n", as_json(&fit, &names, &warnings)));
         }
@@ -111,11 +111,85 @@ impl Fit {
         print(&text)
     }
 
+    /// The first case of each study.
+    fn cases(&self) -> Vec<Result<Case, Failure>> {
+        let first = |path: &PathBuf| asked_case(path, 0, Takes::CapsuleAndTexts).map(|it| it.0);
+        self.study.iter().map(first).collect()
+    }
+
+    /// The case of a recording.
+    fn case_of(&self, cases: &[Result<Case, Failure>], index: usize) -> Result<Case, Failure> {
+        cases[index.min(cases.len() - 1)].clone()
+    }
+
+    /// How the search is to be done.
+    fn effort(&self) -> Effort {
+        let loss = if self.robust { Loss::SoftL1(ROBUST) } else { Loss::Squares };
+        let (starts, threads) = (self.starts as usize, threads());
+        Effort { loss, weights: Weights::Noise, starts, threads }
+    }
+
+    /// The fit of a capsule, and warnings of the recordings.
+    fn capsule_fit(
+        &self,
+        cases: &[Result<Case, Failure>],
+        free: &[Free],
+    ) -> Result<(MotionFit, Vec<String>), Failure> {
+        let (mut recorded, mut warnings) = (Vec::new(), Vec::new());
+        for index in 0..self.recordings.len() {
+            let (one, doubts) = self.recorded(cases, index)?;
+            recorded.push(one);
+            warnings.extend(doubts);
+        }
+        let fit = fit_motion(&recorded, free, &self.effort()).map_err(Failure::request)?;
+        Ok((fit, warnings))
+    }
+
+    /// The fit of the oscillator of a text, and warnings of the recordings.
+    fn text_fit(
+        &self,
+        cases: &[Result<Case, Failure>],
+        model: &'static Description,
+        free: &[Free],
+    ) -> Result<(MotionFit, Vec<String>), Failure> {
+        if self.cycles.is_some() && model.roles.drive.is_none() {
+            let why = "--cycles: the oscillator has no drive; all of a recording is used";
+            return Err(Failure::request(why));
+        }
+        let (mut records, mut warnings) = (Vec::new(), Vec::new());
+        for (index, path) in self.recordings.iter().enumerate() {
+            let case = self.case_of(cases, index)?;
+            if case.parameters.model() != model {
+                let (study, name) = (&self.study[index], case.parameters.model().name);
+                let why = format!(
+                    "it is about {name}, and the first about {}; fit them by themselves",
+                    model.name
+                );
+                return Err(Failure::of_file(study, why));
+            }
+            let recording = files::states(path, model)?;
+            let of_file = |why| Failure::of_file(path, why);
+            let record = TextRecord::new(&recording, &case).map_err(of_file)?;
+            let doubts = record.doubts(&recording).into_iter();
+            warnings.extend(doubts.map(|it| format!("{}: {it}", printable(path))));
+            let period = case.parameters.period_of_drive();
+            let span = period.map_or(f64::INFINITY, |it| it * self.used_cycles() as f64);
+            records.push(record.up_to(span));
+        }
+        let fit = fit_text(&records, free, &self.effort()).map_err(Failure::request)?;
+        Ok((fit, warnings))
+    }
+
+    /// Cycles of the drive that are used.
+    fn used_cycles(&self) -> u64 {
+        self.cycles.unwrap_or(CYCLES)
+    }
+
     /// The parameters to fit, each once, where there are as many studies as the recordings need.
-    fn varied(&self) -> Result<Vec<Varied>, Failure> {
+    fn varied(&self, model: &'static Description) -> Result<Vec<Varied>, Failure> {
         let mut faults = Vec::new();
         let varied: Vec<Varied> =
-            self.vary.iter().flat_map(|text| varied("--vary", text, &mut faults)).collect();
+            self.vary.iter().flat_map(|text| varied("--vary", text, model, &mut faults)).collect();
         for (i, Varied { free, .. }) in varied.iter().enumerate() {
             if varied[..i].iter().any(|other| other.free.parameter == free.parameter) {
                 faults.push(format!("--vary: {} is given twice", free.parameter.symbol()));
@@ -129,22 +203,28 @@ impl Fit {
     }
 
     /// A recording as the fit takes it, and warnings of its gaps and of its frequency.
-    fn recorded(&self, index: usize) -> Result<(Recorded, Vec<String>), Failure> {
+    fn recorded(
+        &self,
+        cases: &[Result<Case, Failure>],
+        index: usize,
+    ) -> Result<(Recorded, Vec<String>), Failure> {
         let path = &self.recordings[index];
         let recording = files::motion(path)?;
-        let (case, _) = case_of(&self.study[index.min(self.study.len() - 1)], 0)?;
+        let case = self.case_of(cases, index)?;
         let (times, signals) = signals_of(&recording).map_err(|why| Failure::of_file(path, why))?;
         let period = case.parameters.drive_period();
         let sampling = recording.sampling();
         check_span(&times, &sampling, period).map_err(|why| Failure::of_file(path, why))?;
-        varies(&signals).map_err(|why| Failure::of_file(path, why))?;
+        for (signal, values) in &signals {
+            varies(signal.name(), values).map_err(|why| Failure::of_file(path, why))?;
+        }
         let drive = drive(&recording).ok_or_else(|| {
             let why =
                 "has neither a column drive [N] nor current [A], which give the phase of the drive";
             Failure::of_file(path, why)
         })?;
         let drive = harmonic(&times, drive).map_err(|why| Failure::of_file(path, why))?;
-        let span = self.cycles as f64 * period;
+        let span = self.used_cycles() as f64 * period;
         let omega = case.parameters.frequency();
         let warnings = warnings_of_record(path, &sampling, &drive, omega, span)?;
         let count = times.partition_point(|time| *time <= span);
@@ -177,6 +257,12 @@ impl Fit {
         });
         identified.collect()
     }
+}
+
+/// The model of a case, where it is that of a text.
+fn text_of(case: &Result<Case, Failure>) -> Option<&'static Description> {
+    let model = case.as_ref().ok()?.parameters.model();
+    model.equations.is_some().then_some(model)
 }
 
 fn drive(recording: &Recording) -> Option<&[f64]> {

@@ -4,7 +4,8 @@ use serde_json::json;
 
 use super::identify_report::shown;
 use super::varied::Varied;
-use crate::capsule::{CapsuleParameters as _, Parameter};
+use crate::capsule::{self, CapsuleParameters as _};
+use crate::description::Parameter;
 use crate::experiment::{Drift, Fitted, MotionFit, Verdict};
 use crate::quantity::Dimension;
 
@@ -34,9 +35,9 @@ fn notes(fit: &MotionFit, names: &[String]) -> Vec<String> {
             names.join(", ")
         ));
     }
-    if fit.fitted.iter().any(|it| it.parameter == Parameter::MuS) {
+    if fit.fitted.iter().any(|it| it.parameter == capsule::Parameter::MuS) {
         let mut idle: Vec<String> =
-            fit.motions.iter().filter_map(|it| it.parameters.idle_static_friction()).collect();
+            fit.parameters.iter().filter_map(|it| it.idle_static_friction()).collect();
         idle.dedup();
         notes.extend(idle);
     }
@@ -87,7 +88,7 @@ pub fn warnings(
 
 /// A drift in a sentence.
 fn told_of_drift(it: &Drift, name: &str) -> String {
-    let (scale, unit) = match it.signal.dimension() {
+    let (scale, unit) = match it.signal.dimension {
         Dimension::Length => (1e3, "mm/s".to_owned()),
         other => (1.0, format!("{}/s", other.unit())),
     };
@@ -95,7 +96,7 @@ fn told_of_drift(it: &Drift, name: &str) -> String {
     format!(
         "{name}: {} drifts against the fitted motion by {} {unit} (standard error {}), which moves the parameters and is not in \
          their errors; where its sensor drifts take that out of the record",
-        it.signal.name(),
+        it.signal.name,
         shown(rate, error),
         shown(error, error)
     )
@@ -163,8 +164,8 @@ pub fn as_json(fit: &MotionFit, names: &[String], warnings: &[String]) -> serde_
     let drifts = fit.drifts.iter().map(|it| {
         json!({
             "recording": names[it.recording],
-            "signal": it.signal.name(),
-            "unit": format!("{}/s", it.signal.dimension().unit()),
+            "signal": it.signal.name,
+            "unit": format!("{}/s", it.signal.dimension.unit()),
             "rate": it.rate,
             "standard_error": it.standard_error,
         })

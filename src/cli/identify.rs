@@ -10,6 +10,7 @@ use super::files;
 use super::identify_report::{as_json, table};
 use super::terminal::print;
 use crate::capsule::Parameter;
+use crate::description;
 use crate::experiment::identification::{Evidence, impossible_rows, parameter_file, remarks};
 use crate::experiment::recording::MOST_TOLD;
 use crate::experiment::{Given, Identified, Recording, Test, identify};
@@ -171,9 +172,10 @@ impl Identify {
     }
 
     /// The parameters that were given, for the parameter file.
-    fn settings(&self, given: &Given) -> Vec<(Parameter, f64)> {
+    fn settings(&self, given: &Given) -> Vec<(description::Parameter, f64)> {
         let all = [(Parameter::M1, given.m1), (Parameter::M2, given.m2), (Parameter::G, given.g)];
-        all.into_iter().filter(|(_, value)| value.is_finite()).collect()
+        let given = all.into_iter().filter(|(_, value)| value.is_finite());
+        given.map(|(parameter, value)| (parameter.into(), value)).collect()
     }
 
     fn draw(&self, found: &[Found], given: &Given, folder: &Path) -> Result<Vec<PathBuf>, Failure> {

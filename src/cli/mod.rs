@@ -2,6 +2,7 @@
 
 mod appearance;
 mod arguments;
+mod asked_case;
 mod attractor_list;
 mod block_progress;
 mod branch_summary;
@@ -42,6 +43,7 @@ mod synthesize;
 mod sweep;
 mod target;
 mod terminal;
+mod text_compare;
 mod tradeoff;
 mod varied;
 mod verify;

@@ -1,15 +1,14 @@
 //! `capsulemap synthesize`: recordings of a rig that is a simulation.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
+use super::asked_case::{Takes, asked_case};
 use super::failure::Failure;
 use super::files;
 use super::terminal::print;
-use crate::campaign::{CampaignError, Replay, read_study_or_results};
-use crate::capsule::description::CAPSULE;
 use crate::capsule::{CapsuleParameters as _, CapsuleState as _, State};
 use crate::description::Parameters;
 use crate::experiment::synthesis::recorded;
@@ -90,7 +89,7 @@ impl Synthesize {
         if !faults.is_empty() {
             return Err(Failure::requests(&faults));
         }
-        let (case, _) = case_of(&self.study, self.case)?;
+        let (case, _) = asked_case(&self.study, self.case, Takes::Capsule)?;
         let paths = self.paths();
         for path in &paths {
             files::check_free(path, self.overwrite)?;
@@ -194,24 +193,6 @@ fn settled(parameters: &Parameters, start: State<f64>, phase: f64) -> Started {
     let case = Case::at_section(parameters.clone(), start, phase);
     let end = settle_case(&case, &Protocol::default()).end;
     Started { parameters: parameters.clone(), start: State { x2: 0.0, ..end.capsule() }, phase }
-}
-
-/// A case of a study of the capsule or of a file of its results, and the protocol of the study.
-pub fn case_of(path: &Path, index: usize) -> Result<(Case, Protocol), Failure> {
-    let study = read_study_or_results(path)?;
-    let model = study.base.model();
-    if *model != CAPSULE {
-        let (path, name) = (printable(path), model.name);
-        let why = "recordings are compared with motions of the capsule alone, on even ground";
-        return Err(Failure::request(format!("{path}: it is about the model {name}; {why}")));
-    }
-    let replay = Replay::new(&study, index).map_err(|error| match error {
-        CampaignError::NoCase { index, cases } => {
-            Failure::request(format!("--case {index}: {} has {cases} cases", printable(path)))
-        }
-        other => other.into(),
-    })?;
-    Ok((replay.as_asked(), study.protocol))
 }
 
 fn noise_of(sensors: &[Sensor], signal: Signal) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::files;
 use super::identify_report::{shown, unit};
-use crate::capsule::Parameter;
+use crate::description::{Description, Parameter};
 use crate::experiment::least_squares::Bounds;
 use crate::experiment::{Free, Side};
 use crate::quantity::{Dimension, units};
@@ -64,22 +64,31 @@ pub fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Parameters with bounds, as "k2=1 kN/m..5 kN/m,mu_d=0.1..0.6".
-pub fn varied(option: &str, text: &str, faults: &mut Vec<String>) -> Vec<Varied> {
-    text.split(',').filter_map(|part| one(option, part, faults)).collect()
+/// Parameters of a model with bounds, as "k2=1 kN/m..5 kN/m,mu_d=0.1..0.6".
+pub fn varied(
+    option: &str,
+    text: &str,
+    model: &'static Description,
+    faults: &mut Vec<String>,
+) -> Vec<Varied> {
+    text.split(',').filter_map(|part| one(option, part, model, faults)).collect()
 }
 
 /// One of them.
-fn one(option: &str, part: &str, faults: &mut Vec<String>) -> Option<Varied> {
+fn one(
+    option: &str,
+    part: &str,
+    model: &'static Description,
+    faults: &mut Vec<String>,
+) -> Option<Varied> {
     let Some((name, (from, to))) =
         part.split_once('=').and_then(|(name, range)| Some((name.trim(), range.split_once("..")?)))
     else {
         faults.push(format!("{option}: {part}: expected NAME=FROM..TO, as \"k2=1 kN/m..5 kN/m\""));
         return None;
     };
-    // Recordings are compared with motions on even ground alone.
-    let Some(parameter) = Parameter::named(name).filter(|it| !it.is_of_folds()) else {
-        let symbols = Parameter::ALL.iter().map(|it| it.symbol());
+    let Some(parameter) = model.parameter(name) else {
+        let symbols = model.parameters().map(|it| it.symbol());
         faults.push(format!("{option}: {}", unknown("parameter", name, symbols)));
         return None;
     };
@@ -121,6 +130,11 @@ fn unit_of(text: &str, dimension: Dimension) -> (String, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capsule::description::CAPSULE;
+
+    fn varied(option: &str, text: &str, faults: &mut Vec<String>) -> Vec<Varied> {
+        super::varied(option, text, &CAPSULE, faults)
+    }
 
     #[test]
     fn values_are_printed_in_the_unit_of_the_bounds() {

@@ -1,6 +1,7 @@
 //! A recorded history of the motion, and what is unknown of its start.
 
 use super::beginning::{Beginning, REACH, Reading, first_window};
+use super::history::Scatter;
 use super::least_squares::Bounds;
 use super::line::line;
 use super::noise::noise;
@@ -53,10 +54,8 @@ pub struct Course<'r> {
     pub guess: Started,
     /// What is unknown of the start, and where it is looked for.
     pub unknown: Vec<(Direction, Bounds)>,
-    /// What the residuals of each signal are divided by.
-    pub units: Vec<f64>,
-    /// The noise of each signal by its third differences, and the least that is taken for noise.
-    pub noise: Vec<[f64; 2]>,
+    /// The noise of each signal.
+    pub scatters: Vec<Scatter>,
     /// Velocities of the capsule at the first sample that are tried, rising [m/s].
     pub speeds: Vec<f64>,
     /// Whether the record has that velocity: by y2, by x2, by x1 and r, or by y1 and r.
@@ -68,19 +67,18 @@ impl<'r> Course<'r> {
     ///
     /// Fails where neither r, nor x1 and x2, is recorded, or a signal does not vary.
     pub fn new(recorded: &'r Recorded, weights: Weights) -> Result<Self, String> {
-        let noises = recorded.signals.iter().map(|(_, values)| {
-            let least = least_noise(values);
-            [noise(values).max(least), least]
-        });
-        let noise: Vec<[f64; 2]> = noises.collect();
-        let units = match weights {
-            Weights::Noise => noise.iter().map(|it| it[0]).collect(),
-            Weights::Spread => {
-                recorded.signals.iter().map(|it| spread(&recorded.times, &it.1)).collect()
+        let scatters = recorded.signals.iter().map(|(_, values)| {
+            let scatter = scatter_of(values);
+            match weights {
+                Weights::Noise => scatter,
+                Weights::Spread => Scatter { unit: spread(&recorded.times, values), ..scatter },
             }
-        };
-        varies(&recorded.signals)?;
-        let first = FirstSample::of(recorded, &noise)
+        });
+        let scatters: Vec<Scatter> = scatters.collect();
+        for (signal, values) in &recorded.signals {
+            varies(signal.name(), values)?;
+        }
+        let first = FirstSample::of(recorded, &scatters)
             .ok_or("neither r, nor x1 and x2, is recorded: the start is unknown")?;
         let y2 = first.speed.unwrap_or(Reading { value: 0.0, error: fastest(recorded) / REACH });
         let speeds = match first.speed {
@@ -95,12 +93,7 @@ impl<'r> Course<'r> {
         let guess =
             Started { parameters: recorded.parameters.clone(), start, phase: recorded.phase };
         let is_speed_measured = first.speed.is_some();
-        Ok(Course { recorded, guess, unknown, units, noise, speeds, is_speed_measured })
-    }
-
-    /// Whether the phase of the drive is an unknown, with a datum of its own.
-    pub fn fits_phase(&self) -> bool {
-        self.unknown.iter().any(|it| it.0 == Direction::StartPhase)
+        Ok(Course { recorded, guess, unknown, scatters, speeds, is_speed_measured })
     }
 
     /// Whether the capsule is taken to rest at the first sample.
@@ -120,10 +113,10 @@ struct FirstSample {
 }
 
 impl FirstSample {
-    /// None where neither r, nor x1 and x2, is recorded; `noise` is that of each signal.
-    fn of(recorded: &Recorded, noise: &[[f64; 2]]) -> Option<FirstSample> {
+    /// None where neither r, nor x1 and x2, is recorded.
+    fn of(recorded: &Recorded, scatters: &[Scatter]) -> Option<FirstSample> {
         let [r, x1, x2, y1, y2] = [Signal::R, Signal::X1, Signal::X2, Signal::Y1, Signal::Y2]
-            .map(|signal| begin(recorded, noise, signal));
+            .map(|signal| begin(recorded, scatters, signal));
         let r = r.or(difference(x1, x2))?;
         let x2 = x2.or(difference(x1, Some(r)));
         let y1 = y1.map(|it| it.level);
@@ -153,10 +146,12 @@ fn difference(a: Option<Beginning>, b: Option<Beginning>) -> Option<Beginning> {
     Some(a?.less(b?))
 }
 
-/// The least that is taken for the noise of a signal.
-fn least_noise(values: &[f64]) -> f64 {
+/// The noise of a signal, by which its residuals are divided.
+pub(super) fn scatter_of(values: &[f64]) -> Scatter {
     let size = values.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
-    (1e-9 * size).max(f64::MIN_POSITIVE)
+    let least = (1e-9 * size).max(f64::MIN_POSITIVE);
+    let noise = noise(values).max(least);
+    Scatter { unit: noise, noise, least }
 }
 
 /// The speeds that are tried about a measured one.
@@ -190,20 +185,19 @@ fn fastest(recorded: &Recorded) -> f64 {
 }
 
 /// Fails where the values of a signal are all equal.
-pub fn varies(signals: &[(Signal, Vec<f64>)]) -> Result<(), String> {
-    let constant = signals.iter().find(|(_, values)| values.iter().all(|it| *it == values[0]));
-    constant.map_or(Ok(()), |(signal, _)| {
-        Err(format!(
-            "{} does not vary, so that it says nothing of the motion and its noise is unknown; remove the column",
-            signal.name()
-        ))
-    })
+pub fn varies(name: &str, values: &[f64]) -> Result<(), String> {
+    match values.iter().all(|it| *it == values[0]) {
+        true => Err(format!(
+            "{name} does not vary, so that it says nothing of the motion and its noise is unknown; remove the column"
+        )),
+        false => Ok(()),
+    }
 }
 
 /// A signal's beginning; none where it is not recorded.
-fn begin(recorded: &Recorded, noise: &[[f64; 2]], signal: Signal) -> Option<Beginning> {
+fn begin(recorded: &Recorded, scatters: &[Scatter], signal: Signal) -> Option<Beginning> {
     let place = recorded.signals.iter().position(|(its, _)| *its == signal)?;
-    Beginning::of(&recorded.times, &recorded.signals[place].1, noise[place][0])
+    Beginning::of(&recorded.times, &recorded.signals[place].1, scatters[place].noise)
 }
 
 /// The standard deviation of a record about its line.

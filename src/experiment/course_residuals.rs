@@ -1,9 +1,10 @@
-//! The residuals of recorded histories at some parameters and starts, with their slopes.
+//! The residuals of recorded histories of the capsule at some parameters and starts, with their slopes.
 
 use super::course::{Course, Recorded};
 use super::free_parameter::Free;
-use super::least_squares::{Fit, Loss, Model, Residuals};
-use super::misfit::SignalResiduals;
+use super::history::{Channel, History, Scatter};
+use super::least_squares::{Bounds, Loss, Residuals};
+use crate::capsule::Parameter;
 use crate::capsule::sampled::{Direction, Signal, Started, sampled};
 
 /// Relative local error of the steps of the simulation.
@@ -15,74 +16,84 @@ pub(super) fn motions(courses: &[Course<'_>], free: &[Free], unknowns: &[f64]) -
     courses
         .iter()
         .map(|course| {
-            let mut motion = course.guess.clone();
-            for (free, value) in free.iter().zip(values) {
-                motion.parameters[free.parameter] = *value;
-            }
-            for (direction, _) in &course.unknown {
-                motion = motion.with(*direction, rest[0]);
-                rest = &rest[1..];
-            }
-            motion
+            let (start, others) = rest.split_at(course.unknown.len());
+            rest = others;
+            motion(course, free, values, start)
         })
         .collect()
 }
 
-/// Recordings with the parameters that are fitted to them, as a model of all unknowns: see [`motions`].
-pub(super) struct Recordings<'c> {
-    /// The recordings.
-    pub courses: &'c [Course<'c>],
-    /// The parameters.
-    pub free: &'c [Free],
-}
-
-impl Model for Recordings<'_> {
-    fn residuals(&self, unknowns: &[f64]) -> Option<Residuals> {
-        residuals(self.courses, self.free, unknowns)
+/// The motion of a recording at these values of the parameters and of what is unknown of its start.
+fn motion(course: &Course<'_>, free: &[Free], values: &[f64], start: &[f64]) -> Started {
+    let mut motion = course.guess.clone();
+    for (free, value) in free.iter().zip(values) {
+        motion.parameters[free.parameter] = *value;
     }
+    for ((direction, _), value) in course.unknown.iter().zip(start) {
+        motion = motion.with(*direction, *value);
+    }
+    motion
 }
 
-/// All residuals at these unknowns, with their slopes.
-pub(super) fn residuals(
-    courses: &[Course<'_>],
-    free: &[Free],
-    unknowns: &[f64],
-) -> Option<Residuals> {
-    let mut all = Residuals { values: Vec::new(), slopes: Vec::new() };
-    let mut before = free.len();
-    for (course, motion) in courses.iter().zip(motions(courses, free, unknowns)) {
+impl History for Course<'_> {
+    fn times(&self) -> &[f64] {
+        &self.recorded.times
+    }
+
+    fn channels(&self) -> Vec<Channel> {
+        let signals = self.recorded.signals.iter().map(|it| it.0);
+        signals.map(|it| Channel { name: it.name(), dimension: it.dimension() }).collect()
+    }
+
+    fn scatters(&self) -> &[Scatter] {
+        &self.scatters
+    }
+
+    fn scatters_mut(&mut self) -> &mut [Scatter] {
+        &mut self.scatters
+    }
+
+    fn bounds(&self) -> Vec<Bounds> {
+        self.unknown.iter().map(|it| it.1).collect()
+    }
+
+    fn fits_phase(&self) -> bool {
+        self.unknown.iter().any(|it| it.0 == Direction::StartPhase)
+    }
+
+    fn residuals(&self, free: &[Free], parameters: &[f64], start: &[f64]) -> Option<Residuals> {
+        let motion = motion(self, free, parameters, start);
         if !motion.parameters.faults().is_empty() {
             return None;
         }
-        let Recorded { times, signals, .. } = course.recorded;
+        let mut all = Residuals { values: Vec::new(), slopes: Vec::new() };
+        let Recorded { times, signals, .. } = self.recorded;
         let names: Vec<Signal> = signals.iter().map(|it| it.0).collect();
-        let found = sampled(&motion, times, &names, &directions(course, free), TOLERANCE).ok()?;
+        let found = sampled(&motion, times, &names, &directions(self, free), TOLERANCE).ok()?;
         for (i, (_, recorded)) in signals.iter().enumerate() {
-            let unit = 1.0 / course.units[i];
+            let unit = 1.0 / self.scatters[i].unit;
             for (k, recorded) in recorded.iter().enumerate() {
-                let mut row = vec![0.0; unknowns.len()];
-                for (j, slope) in found.slopes[i][k].iter().enumerate() {
-                    let place = if j < free.len() { j } else { before + j - free.len() };
-                    row[place] = slope * unit;
-                }
-                all.push((found.values[i][k] - recorded) * unit, row);
+                let slopes = match found.slopes.get(i) {
+                    Some(of_times) => of_times[k].iter().map(|it| it * unit).collect(),
+                    None => Vec::new(),
+                };
+                all.push((found.values[i][k] - recorded) * unit, slopes);
             }
         }
         // What the record of the drive says of its phase is one more datum.
-        if let Some(place) = course.unknown.iter().position(|it| it.0 == Direction::StartPhase) {
-            let unit = 1.0 / course.recorded.phase_error;
-            let mut row = vec![0.0; unknowns.len()];
-            row[before + place] = unit;
-            all.push((motion.phase - course.recorded.phase) * unit, row);
+        if let Some(place) = self.unknown.iter().position(|it| it.0 == Direction::StartPhase) {
+            let unit = 1.0 / self.recorded.phase_error;
+            let mut row = vec![0.0; free.len() + self.unknown.len()];
+            row[free.len() + place] = unit;
+            all.push((motion.phase - self.recorded.phase) * unit, row);
         }
-        before += course.unknown.len();
+        Some(all)
     }
-    Some(all)
 }
 
 /// What the motion of a recording depends on: the parameters, then what is unknown of its start.
 fn directions(course: &Course<'_>, free: &[Free]) -> Vec<Direction> {
-    let of_parameters = free.iter().map(|it| Direction::Parameter(it.parameter));
+    let of_parameters = free.iter().map(|it| Direction::Parameter(Parameter::which(it.parameter)));
     of_parameters.chain(course.unknown.iter().map(|it| it.0)).collect()
 }
 
@@ -93,44 +104,8 @@ pub(super) fn misfit_of(course: &Course<'_>, motion: &Started, loss: Loss) -> f6
     let Ok(found) = sampled(motion, times, &names, &[], TOLERANCE) else { return f64::INFINITY };
     let of_signals = signals.iter().enumerate().map(|(i, (_, recorded))| {
         let pairs = found.values[i].iter().zip(recorded);
-        pairs.map(|(found, recorded)| loss.of((found - recorded) / course.units[i])).sum::<f64>()
+        let unit = course.scatters[i].unit;
+        pairs.map(|(found, recorded)| loss.of((found - recorded) / unit)).sum::<f64>()
     });
     of_signals.sum()
-}
-
-/// How many residuals in turn are those of one signal, or of the phase of a drive.
-pub(super) fn groups(courses: &[Course<'_>]) -> Vec<usize> {
-    let mut groups = Vec::new();
-    for course in courses {
-        groups.extend(vec![course.recorded.times.len(); course.units.len()]);
-        groups.extend(course.fits_phase().then_some(1));
-    }
-    groups
-}
-
-/// The residuals of each signal of each recording in its unit; empty where the motion cannot be followed.
-pub(super) fn by_signal(courses: &[Course<'_>], free: &[Free], fit: &Fit) -> Vec<Vec<f64>> {
-    let Some(found) = residuals(courses, free, &fit.parameters) else { return Vec::new() };
-    let (mut all, mut rest) = (Vec::new(), found.values.as_slice());
-    for course in courses {
-        for _ in &course.units {
-            let (own, others) = rest.split_at(course.recorded.times.len());
-            all.push(own.to_vec());
-            rest = others;
-        }
-        rest = &rest[usize::from(course.fits_phase())..];
-    }
-    all
-}
-
-/// The residuals of all signals with the noise of their records.
-pub(super) fn signals(courses: &[Course<'_>], free: &[Free], fit: &Fit) -> Vec<SignalResiduals> {
-    let units = courses.iter().flat_map(|it| it.units.iter().zip(&it.noise));
-    let signals = by_signal(courses, free, fit).into_iter().zip(units);
-    let residuals = signals.map(|(own, (unit, noise))| SignalResiduals {
-        values: own.iter().map(|it| it * unit).collect(),
-        record_noise: noise[0],
-        least_noise: noise[1],
-    });
-    residuals.collect()
 }

@@ -1,12 +1,10 @@
 //! Whether a recorded signal drifts against the fitted motion, as one of a sensor does whose zero moves.
 
-use super::course::Course;
-use super::course_residuals::{groups, residuals};
 use super::covariance::{Covariance, Data};
 use super::effort::{Effort, search};
 use super::free_parameter::Free;
+use super::history::{Channel, History, groups, residuals};
 use super::least_squares::{Fit, Residuals};
-use crate::capsule::sampled::Signal;
 
 /// A drift of so many standard errors is no chance: of 15 000 signals one is so far off.
 const CLEAR: f64 = 4.0;
@@ -17,7 +15,7 @@ pub struct Drift {
     /// Which of the recordings.
     pub recording: usize,
     /// Which signal.
-    pub signal: Signal,
+    pub signal: Channel,
     /// What it rises by, recorded less fitted [SI, per second].
     pub rate: f64,
     /// Its standard error.
@@ -49,8 +47,8 @@ impl Drift {
 /// # Breaks
 ///
 /// Where the model does not describe the records a signal may have a trend without a drift of its sensor.
-pub(super) fn drifts(
-    courses: &[Course<'_>],
+pub(super) fn drifts<H: History>(
+    courses: &[H],
     free: &[Free],
     effort: &Effort,
     fit: &Fit,
@@ -84,18 +82,18 @@ pub(super) fn drifts(
 
 /// Adds the slopes of residuals in a drift of each signal behind those in what is `fitted`; returns the drifts, none of which is
 /// known yet.
-fn with_drifts(found: &mut Residuals, courses: &[Course<'_>], fitted: usize) -> Vec<Drift> {
-    let signals: usize = courses.iter().map(|it| it.units.len()).sum();
+fn with_drifts<H: History>(found: &mut Residuals, courses: &[H], fitted: usize) -> Vec<Drift> {
+    let signals: usize = courses.iter().map(|it| it.scatters().len()).sum();
     found.slopes.iter_mut().for_each(|row| row.resize(fitted + signals, 0.0));
     let (mut row, mut column) = (0, fitted);
     let mut drifts = Vec::new();
     for (recording, course) in courses.iter().enumerate() {
-        for ((signal, _), unit) in course.recorded.signals.iter().zip(&course.units) {
-            for time in &course.recorded.times {
-                found.slopes[row][column] = time / unit;
+        for (signal, scatter) in course.channels().into_iter().zip(course.scatters()) {
+            for time in course.times() {
+                found.slopes[row][column] = time / scatter.unit;
                 row += 1;
             }
-            drifts.push(Drift { recording, signal: *signal, rate: 0.0, standard_error: 0.0 });
+            drifts.push(Drift { recording, signal, rate: 0.0, standard_error: 0.0 });
             column += 1;
         }
         row += usize::from(course.fits_phase());

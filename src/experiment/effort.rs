@@ -1,8 +1,8 @@
 //! How thoroughly a fit to recorded histories is searched for.
 
-use super::course::{Course, Weights};
-use super::course_residuals::groups;
+use super::course::Weights;
 use super::free_parameter::Free;
+use super::history::{History, groups};
 use super::least_squares::{Loss, Search};
 
 /// A search ends where the sum of squares changes by less than this share.
@@ -24,8 +24,8 @@ pub struct Effort {
 }
 
 /// How the best unknowns of some courses are searched for.
-pub(super) fn search(courses: &[Course<'_>], free: &[Free], effort: &Effort) -> Search {
-    let of_starts = courses.iter().flat_map(|it| it.unknown.iter().map(|it| it.1));
+pub(super) fn search<H: History>(courses: &[H], free: &[Free], effort: &Effort) -> Search {
+    let of_starts = courses.iter().flat_map(History::bounds);
     Search {
         bounds: free.iter().map(|it| it.bounds).chain(of_starts).collect(),
         loss: effort.loss,

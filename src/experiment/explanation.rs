@@ -5,7 +5,8 @@ use std::slice::from_ref;
 use super::comparison::Comparison;
 use super::course::Recorded;
 use super::motion_fit::{Effort, Free, Side, best_values};
-use crate::capsule::{self, CapsuleParameters as _, Parameter, State, settle_case};
+use crate::capsule::{self, CapsuleParameters as _, State, settle_case};
+use crate::description::Parameter;
 use crate::motion::Case;
 use crate::orbit::{Outcome, Protocol};
 

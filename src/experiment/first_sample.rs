@@ -1,9 +1,10 @@
 //! What the capsule may do at the first sample of a recording: rest, or slide at one of several speeds.
 
 use super::course::Course;
-use super::course_residuals::{Recordings, misfit_of, motions};
+use super::course_residuals::{misfit_of, motions};
 use super::effort::{Effort, search};
 use super::free_parameter::Free;
+use super::history::Recordings;
 use super::in_threads::in_threads;
 use super::least_squares::{Fit, Loss, fit_once};
 use crate::capsule::sampled::{Direction, Started};

@@ -1,7 +1,7 @@
 //! A parameter that is fitted, and the bounds that it is looked for within.
 
 use super::least_squares::Bounds;
-use crate::capsule::Parameter;
+use crate::description::Parameter;
 
 /// A parameter to be fitted, and where it is looked for.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -89,7 +89,7 @@ fn implausible(constant: Constant, value: f64) -> Option<String> {
         ));
     }
     let [least, greatest] = FRICTION;
-    let is_friction = [Parameter::MuS, Parameter::MuD].contains(&parameter);
+    let is_friction = [Parameter::MuS, Parameter::MuD].iter().any(|it| parameter == *it);
     let beyond = match value {
         _ if !is_friction => return None,
         _ if value > greatest => format!("above {greatest}"),
@@ -128,7 +128,7 @@ fn of_decay(
     parameter: Parameter,
 ) -> Identified {
     Identified {
-        constant: Constant::Parameter(parameter),
+        constant: Constant::Parameter(parameter.into()),
         estimate: found.by_decay[which],
         verdict: Verdict::Determined,
         method: "least squares on the whole decay",
@@ -197,7 +197,7 @@ fn of_static_force(recording: &Recording) -> Result<(Vec<Identified>, Evidence),
         notes.extend(outliers_of_line(&line, deflections));
     }
     let identified = Identified {
-        constant: Constant::Parameter(Parameter::K2),
+        constant: Constant::Parameter(Parameter::K2.into()),
         estimate: compliance.map(|it| 1.0 / it, slope),
         verdict: Verdict::Determined,
         method: "line through deflection over load",
@@ -222,7 +222,7 @@ fn of_pulls(recording: &Recording, given: &Given) -> Identified {
     let residuals: Vec<f64> = ratios.iter().map(|it| it - estimate.value).collect();
     notes.extend(outliers(&residuals, 1).iter().map(Outlier::to_string));
     Identified {
-        constant: Constant::Parameter(Parameter::MuS),
+        constant: Constant::Parameter(Parameter::MuS.into()),
         estimate,
         verdict: Verdict::Determined,
         method: "mean of pulled mass over mass of the rig",
@@ -257,7 +257,7 @@ fn of_law(
         notes.extend(found.misfits.iter().cloned());
     }
     Identified {
-        constant: Constant::Parameter(parameter),
+        constant: Constant::Parameter(parameter.into()),
         estimate: second,
         verdict: law.verdicts[which],
         method: "distances of the coast-down under the Coulomb-Stribeck law",
@@ -372,6 +372,6 @@ pub fn remarks(all: &[Identified]) -> Vec<String> {
 
 /// The estimate of a parameter, if it is determined.
 fn determined(all: &[Identified], parameter: Parameter) -> Option<Estimate> {
-    let found = all.iter().find(|it| it.constant == Constant::Parameter(parameter))?;
+    let found = all.iter().find(|it| it.constant == Constant::Parameter(parameter.into()))?;
     (found.verdict == Verdict::Determined).then_some(found.estimate)
 }

@@ -71,6 +71,8 @@ impl std::error::Error for RecordingFaults {}
 pub struct Recording {
     /// The file.
     pub source: String,
+    /// The names of the columns of the file that were not asked for.
+    pub others: Vec<String>,
     pub(super) columns: Vec<(Column, Vec<f64>)>,
     pub(super) rows: usize,
 }

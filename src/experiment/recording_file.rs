@@ -26,7 +26,7 @@ impl Recording {
         least: usize,
     ) -> Result<Recording, RecordingFaults> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut reading = Reading { faults: Vec::new(), count: 0, known, text };
+        let mut reading = Reading { faults: Vec::new(), count: 0, others: Vec::new(), known, text };
         let recording = reading.recording(source, least);
         let Reading { faults, count, .. } = reading;
         match count {
@@ -48,6 +48,8 @@ struct Reading<'k> {
     faults: Vec<(Option<u64>, String)>,
     /// How many there are.
     count: usize,
+    /// The names of the columns that were not asked for.
+    others: Vec<String>,
     known: &'k [Column],
     text: &'k str,
 }
@@ -89,7 +91,9 @@ impl Reading<'_> {
             places.push(place_of(&record));
             self.row(&record, header.len(), &found, &mut columns);
         }
-        let recording = Recording { source: source.to_owned(), columns, rows: places.len() };
+        let others = std::mem::take(&mut self.others);
+        let (source, rows) = (source.to_owned(), places.len());
+        let recording = Recording { source, others, columns, rows };
         if self.count == 0 {
             self.rows(&recording, &places, least);
         }
@@ -131,13 +135,16 @@ impl Reading<'_> {
         for (place, cell) in header.iter().enumerate() {
             let (name, its_unit) = name_and_unit(cell);
             let Some(&column) = self.known.iter().find(|column| column.name == name) else {
+                self.others.push(excerpt(name).into_owned());
                 continue;
             };
             if all.iter().any(|found| found.column == column) {
                 self.fault(at, |_| format!("the column {name} stands twice"));
                 continue;
             }
-            match unit(its_unit, column.dimension) {
+            // As texts of oscillators write a plain number.
+            let is_number = column.dimension == Dimension::Number && its_unit == "1";
+            match unit(if is_number { "" } else { its_unit }, column.dimension) {
                 Some((_, size)) => all.push(Found { column, place, size }),
                 None => {
                     let expected = expectation(column.dimension);

@@ -16,11 +16,12 @@ pub(super) fn starts(
     count: usize,
     loss: Loss,
 ) -> Vec<Vec<f64>> {
+    let bounds: Vec<Bounds> = free.iter().map(|it| it.bounds).collect();
     let mut starts = Vec::new();
     for index in 0..count.max(1) {
         let parameters = match index {
             0 => first_parameters(&courses[0], free),
-            _ => halton_point(index as u32, free),
+            _ => halton_point(index as u32, &bounds),
         };
         let mut unknowns = parameters.clone();
         for course in courses {
@@ -41,9 +42,9 @@ fn first_parameters(course: &Course<'_>, free: &[Free]) -> Vec<f64> {
 }
 
 /// A point of a Halton sequence within the bounds.
-fn halton_point(index: u32, free: &[Free]) -> Vec<f64> {
-    let values = free.iter().zip(PRIMES.iter().cycle()).map(|(free, prime)| {
-        let Bounds { least, greatest } = free.bounds;
+pub(super) fn halton_point(index: u32, bounds: &[Bounds]) -> Vec<f64> {
+    let values = bounds.iter().zip(PRIMES.iter().cycle()).map(|(bounds, prime)| {
+        let Bounds { least, greatest } = *bounds;
         least + (greatest - least) * radical_inverse(index, *prime)
     });
     values.collect()

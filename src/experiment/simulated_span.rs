@@ -15,6 +15,18 @@ const NAMED: usize = 3;
 ///
 /// Fails with the longest gaps, or with the interval of the samples where there is no gap.
 pub fn check_span(times: &[f64], sampling: &Sampling, period: f64) -> Result<(), String> {
+    check(times, sampling, period, "cycles of the drive")
+}
+
+/// The same of an oscillator without a drive, by how long its section is waited for [s].
+///
+/// Fails in the same manner.
+pub fn check_wait(times: &[f64], sampling: &Sampling, within: f64) -> Result<(), String> {
+    check(times, sampling, within, "times that the section is waited for")
+}
+
+/// `what` is what the record spans so many of.
+fn check(times: &[f64], sampling: &Sampling, period: f64, what: &str) -> Result<(), String> {
     let cycles = times[times.len() - 1] / period;
     let most = BESIDES + PER_SAMPLE * times.len() as f64;
     if cycles <= most {
@@ -22,7 +34,7 @@ pub fn check_span(times: &[f64], sampling: &Sampling, period: f64) -> Result<(),
     }
     let Sampling { interval, gaps, .. } = sampling;
     let spans = format!(
-        "it spans {cycles:.3e} cycles of the drive, of which {most} at most are simulated: {PER_SAMPLE} for each of its {} samples, and \
+        "it spans {cycles:.3e} {what}, of which {most} at most are simulated: {PER_SAMPLE} for each of its {} samples, and \
          {BESIDES} more",
         times.len()
     );

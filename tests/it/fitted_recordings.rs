@@ -129,7 +129,7 @@ impl Bench {
     fn fitted(&self, sensors: Sensors, seed: u64) -> MotionFit {
         let truth = self.truth();
         let free = FREE.map(|(parameter, least, greatest)| Free {
-            parameter,
+            parameter: parameter.into(),
             bounds: Bounds {
                 least: least * truth[parameter],
                 greatest: greatest * truth[parameter],

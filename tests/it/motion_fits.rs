@@ -57,7 +57,7 @@ const FREE: [(Parameter, f64, f64); 5] = [
 
 fn free(which: &[(Parameter, f64, f64)]) -> Vec<Free> {
     let of = |&(parameter, least, greatest): &(Parameter, f64, f64)| Free {
-        parameter,
+        parameter: parameter.into(),
         bounds: Bounds { least, greatest },
     };
     which.iter().map(of).collect()

@@ -98,7 +98,7 @@ fn recording(test: Test, seed: u64) -> Recording {
     };
     let rows = columns[0].len();
     let columns = test.columns().into_iter().zip(columns).collect();
-    Recording { source: "test.csv".to_owned(), columns, rows }
+    Recording { source: "test.csv".to_owned(), others: Vec::new(), columns, rows }
 }
 
 #[test]

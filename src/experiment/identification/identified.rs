@@ -1,6 +1,6 @@
 //! The simple tests of a rig, and what is told of a constant that they give.
 
-use crate::capsule::Parameter;
+use crate::description::Parameter;
 use crate::experiment::estimate::Estimate;
 use crate::experiment::profile::Verdict;
 use crate::experiment::recording::{Column, Presence::Required};

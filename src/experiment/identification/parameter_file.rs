@@ -1,13 +1,9 @@
 //! The parameter file of identified constants, which studies include.
 
 use super::identified::{Constant, Identified};
-use crate::capsule::Parameter;
-use crate::description::Parameters;
+use crate::description::Parameter;
 use crate::experiment::profile::Verdict;
 use crate::quantity::Dimension;
-
-/// Parameters that have no default in a study.
-const OPEN: [Parameter; 4] = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta];
 
 /// The identified constants as a parameter file, which studies include by `include = "FILE"`; `settings` are parameters that
 /// were given, by symbol with their values as text. A constant that is not determined on both sides has no value there.
@@ -49,10 +45,10 @@ fn setting(it: &Identified) -> String {
     let Constant::Parameter(parameter) = it.constant else { return String::new() };
     let (symbol, verdict) = (parameter.symbol(), it.verdict);
     let value = quantity(it.estimate.value, parameter.dimension());
-    let unless = match OPEN.contains(&parameter) {
+    let unless = match parameter.is_asked_for() {
         true => format!("a study must set {symbol}"),
         false => {
-            let default = Parameters::default()[parameter];
+            let default = parameter.default_value();
             let unit = unit_behind(parameter.dimension());
             format!("a study takes the default, {default}{unit}, unless it sets {symbol}")
         }

@@ -13,6 +13,7 @@ const OWN: [&str; 2] = ["Parameter::", "Output::"];
 /// Files that know the rig of the capsule, or have options that are called after its parameters.
 const OF_THE_RIG: [&str; 9] = [
     "src/experiment/",
+    "src/cli/asked_case.rs",
     "src/cli/compare_report.rs",
     "src/cli/experiment_figures.rs",
     "src/cli/fit.rs",
@@ -20,7 +21,6 @@ const OF_THE_RIG: [&str; 9] = [
     "src/cli/identify.rs",
     "src/cli/simulate.rs",
     "src/cli/synthesize.rs",
-    "src/cli/varied.rs",
 ];
 
 /// Files beside these that take something of the capsule's floor, and what.

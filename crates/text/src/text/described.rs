@@ -241,8 +241,8 @@ fn frequency(text: &Text) -> Option<usize> {
     parameter(text, by).filter(|_| is_turn)
 }
 
-/// How long a cycle lasts, by the values of the parameters.
-fn period(parameters: &Parameters) -> f64 {
+/// How long a cycle lasts, by the values of the parameters; of an autonomous system how long it is waited for.
+pub fn period(parameters: &Parameters) -> f64 {
     let program = program_of(parameters.model());
     let values: Vec<f64> = parameters.each().map(|it| it.1).collect();
     constants(program, &values)[program.period]

@@ -21,6 +21,7 @@ pub mod interpreter;
 pub mod jet;
 mod line;
 pub mod linear;
+pub mod linear_rates;
 mod lowering;
 pub mod mode;
 pub mod model;

@@ -193,7 +193,7 @@ fn a_motion_goes_on_from_any_of_its_samples() {
 #[test]
 fn a_motion_need_not_come_back_to_its_section() {
     // With much damping it comes to rest where the spring holds the friction; the section is waited for 100 long.
-    let motion = started("belt.toml", &[("c", 1.0)], &[0.5, 0.6]);
+    let motion = started("belt.toml", &[("c", 3.0)], &[0.5, 0.6]);
     let found = values(&motion, &[0.0, 350.0, 400.0]);
     let rests = 0.5 * (1.0 + (-1.5_f64 / 0.5).exp());
     assert_eq!([found[0][0], found[1][0]], [0.5, 0.6]);
