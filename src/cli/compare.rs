@@ -25,6 +25,7 @@ const EXAMPLES: &str = "\
 Examples:
   capsulemap compare rig/motion.csv studies/fig5.toml --output rig/comparison
   capsulemap compare rig/motion.csv studies/fig6.toml --explain \"k2=5 kN/m..30 kN/m\" --explain mu_s=0.2..0.8,mu_d=0.1..0.4
+  capsulemap compare wall.csv wall.toml
 
 A recording is a CSV file with a column t and any of x2, r, x1, y1, y2, a1, drive, current, with their units. drive or current \
 give the phase; without them the phase with the least differences is taken. The simulation starts on what the case settles to, \
@@ -46,7 +47,13 @@ A drive of another frequency than omega, of another amplitude than p_d (by 2 % a
 signals of the other sign or in another unit are told.
 
 --explain fits parameters by themselves to the first cycles and says how much of the difference each explains; several in one \
-option, separated by commas, are fitted together.";
+option, separated by commas, are fitted together.
+
+The study may be of an oscillator given as text, with a recording as `capsulemap fit` takes it: columns t and states, and the phase of \
+the drive at t = 0 is the start_phase of the study. The simulation is the motion that the case settles to, so that the rig must have settled, \
+too; of a motion of several cycles that one comes first with which the differences are least, and without a drive the first sample is \
+at the moment of the motion with which those of the first twenty cycles are least. What drifts is moved by a constant. \
+There are no speeds, impacts and spikes of such recordings, and no --explain.";
 
 /// Compare a recording with the simulation of the same case.
 #[derive(Debug, Args)]

@@ -30,6 +30,7 @@ const EXAMPLES: &str = "\
 Examples:
   capsulemap fit rig/motion.csv --study studies/fig5.toml --vary \"k2=1 kN/m..5 kN/m,mu_d=0.1..0.6\"
   capsulemap fit a.csv b.csv --study a.toml --study b.toml --vary \"v_s=0.05 m/s..1 m/s\" --output fitted.toml
+  capsulemap fit wall.csv --study wall.toml --vary c=0.01..0.5,r=0.3..1
 
 Each recording has its own study, or all have one; its first case says how the rig was set. The drive must be recorded (column \
 drive or current), as it gives the phase, whose error is in those of the parameters. The start is unknown: r and y1, x2 where it is \
@@ -40,7 +41,13 @@ A study whose omega is not that of the recorded drive is refused. Intervals are 
 within its bounds is called one-sided or not determined. The misfit is the standard deviation of the residuals over the noise, which is \
 that of the third differences of the residuals. Outliers are samples more than five times the noise from the fit; with --robust they count \
 little, errors and intervals are scaled by Huber's formula for such fits, and the \
-misfit is that of the others, by the median.";
+misfit is that of the others, by the median.
+
+The study may be of an oscillator given as text (systems/README.md). Then a recording has a column t and columns that are called \
+as states, one at least, with their units as \"x [m]\"; a state whose unit is 1 has none, and where all are such, t has none. The drive \
+is known: at t = 0 of the record its phase is the start_phase of the study, whenever the first sample is. Without a drive the first sample is \
+anywhere in the motion. The start of each state is unknown: where it is recorded, or follows from the rate of one that is, it is looked \
+for about what the first samples have of it, else about the start of the study, three times as far as the motion from there goes.";
 
 /// Cycles of the drive that are used unless another number is given.
 const CYCLES: u64 = 6;

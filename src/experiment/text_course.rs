@@ -7,7 +7,8 @@ use super::beginning::{Beginning, Reading};
 use super::course::{scatter_of, varies};
 use super::free_parameter::Free;
 use super::history::{Channel, History, Scatter};
-use super::least_squares::{Bounds, Residuals};
+use super::least_squares::{Bounds, Loss, Residuals};
+use super::search_starts::halton_point;
 use super::text_record::TextRecord;
 use crate::description::State;
 
@@ -18,6 +19,8 @@ const TOLERANCE: f64 = 1e-11;
 const EVENT: f64 = 30.0;
 /// A state of which the record says nothing is looked for so many times as far from the start of the study as the motion from there goes.
 const FAR: f64 = 3.0;
+/// So many values are tried for the states of which the record says nothing.
+const TRIED: u32 = 48;
 /// Where no motion starts at the first sample, as noise has put it behind a bound, starts so many standard errors beside it are tried.
 const BESIDE: [f64; 3] = [3.0, 10.0, 30.0];
 
@@ -76,14 +79,44 @@ impl<'r> TextCourse<'r> {
         free.iter().map(|it| self.guess.parameters[it.parameter]).collect()
     }
 
-    /// The unknowns of the start as they are estimated.
-    pub fn guessed(&self) -> Vec<f64> {
-        self.unknown.iter().map(|it| self.guess.start.values()[it.0]).collect()
+    /// What is unknown of the start as it is estimated; of states of which the record says nothing the best of some values within their
+    /// bounds, at these values of the parameters.
+    pub fn best_start(&self, free: &[Free], parameters: &[f64], loss: Loss) -> Vec<f64> {
+        let guessed: Vec<f64> =
+            self.unknown.iter().map(|it| self.guess.start.values()[it.0]).collect();
+        let hidden: Vec<usize> = (0..guessed.len()).filter(|&it| self.is_hidden[it]).collect();
+        let bounds: Vec<Bounds> = hidden.iter().map(|&it| self.unknown[it].1).collect();
+        let mut best = guessed.clone();
+        let mut least = f64::INFINITY;
+        for index in 0..if hidden.is_empty() { 0 } else { TRIED } {
+            let mut start = guessed.clone();
+            if index > 0 {
+                let values = halton_point(index, &bounds);
+                hidden.iter().zip(values).for_each(|(&place, value)| start[place] = value);
+            }
+            let misfit = self.misfit(free, parameters, &start, loss);
+            if misfit < least {
+                (best, least) = (start, misfit);
+            }
+        }
+        best
     }
 
-    /// Of each unknown of the start whether the record says nothing of it.
-    pub fn is_hidden(&self) -> &[bool] {
-        &self.is_hidden
+    /// What the residuals of a motion add to the sum that is made least; infinite where it cannot be followed.
+    fn misfit(&self, free: &[Free], parameters: &[f64], start: &[f64], loss: Loss) -> f64 {
+        let motion = self.motion(free, parameters, start);
+        let TextRecord { times, states, .. } = self.recorded;
+        let columns: Vec<usize> = states.iter().map(|it| it.0).collect();
+        let Ok(found) = sampled(&motion, times, &columns, &[], TOLERANCE) else {
+            return f64::INFINITY;
+        };
+        let mut sum = 0.0;
+        for (i, (_, recorded)) in states.iter().enumerate() {
+            let unit = self.scatters[i].unit;
+            let pairs = found.values[i].iter().zip(recorded);
+            sum += pairs.map(|(found, recorded)| loss.of((found - recorded) / unit)).sum::<f64>();
+        }
+        sum
     }
 
     /// The motion at these values of the parameters and of what is unknown of the start.
