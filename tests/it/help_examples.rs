@@ -3,6 +3,7 @@
 use std::fs;
 
 use super::program::{FIG5, WorkDir};
+use super::text_recordings::put_wall;
 
 /// A folder in which examples run: studies, a rig, and the files that examples name.
 fn folder() -> WorkDir {
@@ -16,6 +17,7 @@ fn folder() -> WorkDir {
     ] {
         work.put(name, text);
     }
+    put_wall(&work);
     work.run(&["synthesize", "a.toml", "--output", "other"]).done();
     for (from, to) in [
         ("other/motion.csv", "a.csv"),

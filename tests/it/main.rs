@@ -94,6 +94,7 @@ mod slurm;
 mod smoothed_records;
 mod store;
 mod study;
+mod text_recordings;
 mod texts;
 mod tolerances;
 mod trade_offs;
