@@ -181,7 +181,7 @@ impl Fit {
             warnings.extend(doubts.map(|it| format!("{}: {it}", printable(path))));
             let period = case.parameters.period_of_drive();
             let span = period.map_or(f64::INFINITY, |it| it * self.used_cycles() as f64);
-            records.push(record.up_to(span));
+            records.push(record.up_to(span).map_err(of_file)?);
         }
         let fit = fit_text(&records, free, &self.effort()).map_err(Failure::request)?;
         Ok((fit, warnings))

@@ -90,6 +90,7 @@ pub fn warnings(
 fn told_of_drift(it: &Drift, name: &str) -> String {
     let (scale, unit) = match it.signal.dimension {
         Dimension::Length => (1e3, "mm/s".to_owned()),
+        Dimension::Number => (1.0, "per unit of time".to_owned()),
         other => (1.0, format!("{}/s", other.unit())),
     };
     let (rate, error) = (scale * it.rate, scale * it.standard_error);

@@ -11,6 +11,8 @@ use crate::motion::Case;
 
 /// So many cycles of the drive before or after the first sample time zero is far.
 const FAR: f64 = 1000.0;
+/// Samples that a fit needs.
+const LEAST: usize = 16;
 /// So many gaps are named.
 const NAMED: usize = 3;
 
@@ -60,11 +62,22 @@ impl TextRecord {
     }
 
     /// Its samples up to this time since the first [s].
-    pub fn up_to(mut self, span: f64) -> TextRecord {
+    ///
+    /// Fails where these are fewer than sixteen, or a state does not vary in them.
+    pub fn up_to(mut self, span: f64) -> Result<TextRecord, String> {
         let count = self.times.partition_point(|time| *time <= span);
+        if count < LEAST {
+            let all = self.times.len();
+            return Err(format!(
+                "{count} of its {all} samples are used; at least {LEAST} are needed: give more --cycles"
+            ));
+        }
         self.times.truncate(count);
-        self.states.iter_mut().for_each(|it| it.1.truncate(count));
-        self
+        for (place, values) in &mut self.states {
+            values.truncate(count);
+            varies(self.parameters.model().coordinates[*place].name, values)?;
+        }
+        Ok(self)
     }
 
     /// What a state is called and measures.
