@@ -120,27 +120,28 @@ pub fn sampled(
         (true, _) => sampled_as::<MANY, PLACES, false>,
         (false, _) => sampled_as::<MANY, PLACES, true>,
     };
-    of_kind(program, motion, (times, columns), directions, tolerance)
+    of_kind(program, motion, Asked { times, columns }, directions, tolerance)
 }
 
 fn sampled_as<const D: usize, const N: usize, const AUTONOMOUS: bool>(
     program: &'static Program,
     motion: &Started,
-    read: (&[f64], &[usize]),
+    asked: Asked<'_>,
     directions: &[Direction],
     tolerance: f64,
 ) -> Result<Samples, Reason> {
-    let (times, columns) = read;
     if directions.is_empty() {
         let plain = |it| motion.value(it);
-        let values = Sampler::new(times, columns)
-            .followed::<D, N, AUTONOMOUS>(program, motion, plain, tolerance)?;
+        let values =
+            Sampler::new(asked).followed::<D, N, AUTONOMOUS>(program, motion, plain, tolerance)?;
         return Ok(Samples { values, slopes: Vec::new() });
     }
-    let mut samples =
-        Samples { values: Vec::new(), slopes: vec![vec![Vec::new(); times.len()]; columns.len()] };
+    let mut samples = Samples {
+        values: Vec::new(),
+        slopes: vec![vec![Vec::new(); asked.times.len()]; asked.columns.len()],
+    };
     for some in directions.chunks(AT_ONCE) {
-        let values = Sampler::new(times, columns).followed::<D, N, AUTONOMOUS>(
+        let values = Sampler::new(asked).followed::<D, N, AUTONOMOUS>(
             program,
             motion,
             |it| seeded(motion, it, some),
@@ -178,10 +179,18 @@ fn start_in_cycle<L: Lane>(motion: &Started, period: L, phase: L) -> L {
     if is_within { begins } else { begins - L::splat(value) }
 }
 
-/// What is read of a motion, in numbers of one kind.
-struct Sampler<'a, L> {
+/// What is read of a motion, and when.
+#[derive(Clone, Copy)]
+struct Asked<'a> {
+    /// Times since the start [s].
     times: &'a [f64],
+    /// States by their places.
     columns: &'a [usize],
+}
+
+/// What has been read of a motion, in numbers of one kind.
+struct Sampler<'a, L> {
+    asked: Asked<'a>,
     /// When the cycle began, since the start of the motion [s].
     began: L,
     values: Vec<Vec<L>>,
@@ -189,9 +198,9 @@ struct Sampler<'a, L> {
 }
 
 impl<'a, L: Lane> Sampler<'a, L> {
-    fn new(times: &'a [f64], columns: &'a [usize]) -> Self {
-        let values = vec![Vec::with_capacity(times.len()); columns.len()];
-        Sampler { times, columns, began: L::splat(0.0), values, next: 0 }
+    fn new(asked: Asked<'a>) -> Self {
+        let values = vec![Vec::with_capacity(asked.times.len()); asked.columns.len()];
+        Sampler { asked, began: L::splat(0.0), values, next: 0 }
     }
 
     /// The states in a motion whose values are those `of` directions, by column and time.
@@ -218,7 +227,7 @@ impl<'a, L: Lane> Sampler<'a, L> {
         let mut course = Motion::new(&system, begins, start);
         let mut step = Step::default();
         let mut steps = 0;
-        while self.next < self.times.len() {
+        while self.next < self.asked.times.len() {
             course.single_step(&system, period, tolerance, &mut step);
             steps += 1;
             self.see(&step);
@@ -245,13 +254,13 @@ impl<'a, L: Lane> Sampler<'a, L> {
         &mut self,
         step: &Step<L, Oscillator<L, D, N, AUTONOMOUS>>,
     ) {
-        while let Some(&time) = self.times.get(self.next) {
+        while let Some(&time) = self.asked.times.get(self.next) {
             let since = L::splat(time) - (self.began + step.start);
             if step.length.lane(0) < since.lane(0) {
                 return;
             }
             // A sample that rounding puts just before its step lies at its beginning.
-            for (column, values) in self.columns.iter().zip(&mut self.values) {
+            for (column, values) in self.asked.columns.iter().zip(&mut self.values) {
                 values.push(series::value(&step.jet.registers[*column], since));
             }
             self.next += 1;

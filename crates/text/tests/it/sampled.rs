@@ -19,9 +19,42 @@ fn characters(name: &str) -> String {
     fs::read_to_string(path).expect("a text")
 }
 
+/// Two masses, of which one meets a wall and the other slides: four coordinates on the section, which is more than the few of small
+/// systems.
+const TWO_MASSES: &str = r#"
+[system]
+name = "two masses"
+states = { x = "1", v = "1", y = "1", u = "1" }
+section = { every = "2*pi/w" }
+[system.parameters]
+w = 1.3
+k = 0.7
+r = 0.6
+wall = 0.5
+s = 0.1
+[system.rates]
+x = "v"
+v = "cos(w*t) - x - 0.1*v - k*(x - y)"
+y = "u"
+u = "k*(x - y) - y - friction"
+[[system.events]]
+name = "impact"
+while = "x < wall"
+reset = { x = "wall", v = "-r*v" }
+[system.friction.friction]
+of = "u"
+sliding = "s"
+holds = "1.3*s"
+"#;
+
 /// A motion of a text of the repository, with some parameters, from a start.
 fn started(name: &str, values: &[(&str, f64)], start: &[f64]) -> Started {
-    let description = model(&characters(name)).expect("a text without faults");
+    started_of(&characters(name), values, start)
+}
+
+/// The same of any text.
+fn started_of(text: &str, values: &[(&str, f64)], start: &[f64]) -> Started {
+    let description = model(text).expect("a text without faults");
     let mut parameters = Parameters::of(description);
     for (symbol, value) in values {
         parameters[description.parameter(symbol).expect("a parameter")] = *value;
@@ -132,6 +165,19 @@ fn derivatives_pass_through_edges_and_contacts_that_last() {
     assert!(check_derivatives(&pulse, &even(40, 2.04 * period(&pulse))) >= 11);
     let ball = started("ball.toml", &[("r", 0.5)], &[2e-3, 0.0]);
     assert!(check_derivatives(&ball, &even(40, 2.04 * period(&ball))) >= 3);
+}
+
+#[test]
+fn derivatives_are_those_of_systems_of_many_states() {
+    let mut motion = started_of(TWO_MASSES, &[], &[0.1, 0.2, -0.3, 0.4]);
+    motion.phase = 0.5;
+    assert!(check_derivatives(&motion, &even(40, 2.03 * period(&motion))) >= 9);
+    let text = TWO_MASSES.replace("cos(w*t)", "0.5*sin(w)");
+    let text = text.replace("{ every = \"2*pi/w\" }", "{ when = \"v falls\", within = 50.0 }");
+    let mut free =
+        started_of(&text.replace("\"two masses\"", "\"free masses\""), &[], &[0.1, 0.9, -0.3, 0.4]);
+    free.phase = 0.5;
+    assert!(check_derivatives(&free, &even(40, 11.3)) >= 8);
 }
 
 #[test]
