@@ -14,8 +14,8 @@ use crate::description::State;
 
 /// Relative local error of the steps of the simulation.
 const TOLERANCE: f64 = 1e-11;
-/// A first reading is so many of its errors away from the first sample at most: the parabola through the first samples does not pass
-/// through an event among them.
+/// The error of a reading is so large that the first samples by themselves are no more than so many errors away, as an event among the
+/// first samples spoils the parabola through them.
 const EVENT: f64 = 30.0;
 /// A state of which the record says nothing is looked for so many times as far from the start of the study as the motion from there goes.
 const FAR: f64 = 3.0;
