@@ -173,7 +173,7 @@ fn tables_and_reports_tell_a_gain_by_its_name_and_unit() {
         "cost per gain",
         "most gain ",
         "least cost per gain ",
-        "replay of most gain: capsulemap simulate --system ",
+        "replay of most gain: capsulemap simulate --study ",
     ] {
         assert!(table.contains(part), "{part}: {table}");
     }
