@@ -28,7 +28,7 @@ const EXAMPLES: &str = "\
 Examples:
   capsulemap simulate --omega \"20.73 rad/s\" --k2 \"18.96 kN/m\" --json
   capsulemap simulate --set mu_s=0.4 --start r=-2.5e-3,y2=0.1 --cycles 50
-  capsulemap simulate --drive square --set duty=0.3 --set k3=\"20 kN/m\" --set delta_3=\"4 mm\"
+  capsulemap simulate --drive square --set duty=0.3 --set p_low=\"-1 N\"
   capsulemap simulate --friction-switching as-printed
   capsulemap simulate --study studies/overview.toml --case 1234
   capsulemap simulate --system systems/belt.toml --start x=1

@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use crate::lane::{Lane, Mask};
 
-use super::motion::{Breakdown, Motion};
+use super::breakdown::Breakdown;
+use super::motion::Motion;
 use super::step::Step;
 use super::switched::Switched;
 

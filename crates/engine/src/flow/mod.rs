@@ -1,5 +1,6 @@
 //! Integrates any switched system by Taylor steps and locates every event.
 
+pub mod breakdown;
 pub mod cycle;
 pub mod defect;
 pub mod guard;
@@ -15,9 +16,10 @@ pub mod system;
 mod own_system;
 mod taylor;
 
+pub use breakdown::Breakdown;
 pub use cycle::{Reason, STEPS_PER_CYCLE, cycle};
 pub use metric::Metric;
-pub use motion::{Breakdown, Motion};
+pub use motion::Motion;
 pub use observer::Observer;
 pub use pace::longest_step;
 pub use step::Step;

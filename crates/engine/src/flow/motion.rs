@@ -1,9 +1,8 @@
 //! The event loop: step, locate, switch.
 
-use std::fmt;
-
 use crate::lane::{Lane, Mask, Series, SideBySide, series};
 
+use super::breakdown::Breakdown;
 use super::guard::{divide_by_time, first_fall, stays_positive};
 use super::step::Step;
 use super::step_end::StepEnd;
@@ -42,36 +41,6 @@ impl<L: Lane, S: Switched<L>> Clone for Motion<L, S> {
 }
 
 impl<L: Lane, S: Switched<L>> Copy for Motion<L, S> {}
-
-/// Why a motion cannot go on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Breakdown {
-    /// Events follow each other without time passing.
-    NoProgress,
-    /// The same, and the last of them is an impact: impacts accumulate.
-    Chatter,
-    /// The state, or a guard that is watched, is no longer a finite number.
-    NotFinite,
-    /// An autonomous system does not come back to its section in time.
-    NoReturn,
-    /// The motion leaves every bound ([`Switched::runs_away`]).
-    RunsAway,
-    /// The computation is to end.
-    Stopped,
-}
-
-impl fmt::Display for Breakdown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Breakdown::NoProgress => "events follow each other without time passing",
-            Breakdown::Chatter => "impacts accumulate, and no contact lasts after them",
-            Breakdown::NotFinite => "the state or a guard is no longer a finite number",
-            Breakdown::NoReturn => "the motion does not come back to its section",
-            Breakdown::RunsAway => "nothing holds the mean force: the motion accelerates for ever",
-            Breakdown::Stopped => "the computation was ended early",
-        })
-    }
-}
 
 impl<L: Lane, S: Switched<L>> Motion<L, S> {
     /// A motion from `state` at `time`, in the mode that the system gives it.

@@ -150,9 +150,9 @@ impl<M: Subject<D>, const D: usize> Certified<'_, M, D> {
         if first < 1e-3 || second > 0.7 * first {
             return None;
         }
-        // Far enough for the second multiplier to be gone, and not so far that rounding is met.
+        // Far enough for the second multiplier to be gone, of which a push may have some times as much, and not so far that rounding is met.
         let settled =
-            if second == 0.0 { 1.0 } else { (0.03_f64.ln() / (second / first).ln()).ceil() };
+            if second == 0.0 { 1.0 } else { (0.01_f64.ln() / (second / first).ln()).ceil() };
         let last = (1e-4_f64.ln() / first.ln()).floor().min(settled + 20.0);
         if last <= settled {
             return None;
