@@ -89,7 +89,8 @@ fn complete(temporary: &mut NamedTempFile, path: &Path) -> Result<(), StoreError
 }
 
 impl Column {
-    fn element(&self) -> Element {
+    /// The type of its numbers in the file.
+    pub fn element(&self) -> Element {
         Element::of(&self.label, self.range)
     }
 
