@@ -115,7 +115,7 @@ impl InMemory {
             self.machine,
             &spread(study.blocks()),
             |block, record| self.note(block, record, reports),
-            |block, records| match store::image(study, &fingerprint, block, &records) {
+            |block, records| match store::block_image(study, &fingerprint, block, &records) {
                 Ok(image) => self.keep(block, image),
                 Err(error) => {
                     *unpacked.lock().unwrap_or_else(|it| it.into_inner()) = Some(error);

@@ -1,7 +1,7 @@
 //! The attributes of variables and of a whole dataset, the same for every form in which it is handed out.
 
 use super::catalogue::PERIOD;
-use super::encode::Element;
+use super::element::Element;
 use super::names::{
     CONVENTIONS, CONVENTIONS_FOLLOWED, FLAG_MEANINGS, FLAG_VALUES, FORMAT, FORMAT_WRITTEN,
     LONG_NAME, OF_PROTOCOL, UNITS,

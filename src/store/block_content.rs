@@ -13,7 +13,7 @@ use crate::study::{Refine, Study};
 /// The bytes of the block `number` of these records, of a study with this fingerprint, as its file would hold them.
 ///
 /// Fails if the numbers cannot be packed.
-pub fn image(
+pub fn block_image(
     study: &Study,
     fingerprint: &str,
     number: usize,
@@ -24,7 +24,7 @@ pub fn image(
 
 /// Bytes that a block of these records takes.
 pub fn packed_bytes(study: &Study, records: &[Record]) -> io::Result<usize> {
-    image(study, &study.fingerprint(), 0, records).map(|image| image.len())
+    block_image(study, &study.fingerprint(), 0, records).map(|image| image.len())
 }
 
 /// A block in a few numbers.

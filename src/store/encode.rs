@@ -13,6 +13,7 @@ use ndarray::{ArrayD, ArrayView1};
 
 use super::attribute::{self, Attribute, TEXT_MEANING, attributes_of, constants, has_missing};
 use super::catalogue::DIRECTION;
+use super::element::Element;
 use super::names::*;
 use super::{Dataset, StoreError, Values, Variable, scale};
 
@@ -188,43 +189,7 @@ fn put_flag_values<T: H5Type>(
     Ok(())
 }
 
-/// The type of a variable's numbers in the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Element {
-    /// Eight bytes, a real.
-    Real,
-    /// One byte.
-    Byte,
-    /// Four bytes.
-    Int,
-    /// Eight bytes.
-    Long,
-}
-
 impl Element {
-    /// The narrowest type for the numbers of a variable, of which those that are integers are in `range`.
-    pub fn of(variable: &Variable, range: Option<[i64; 2]>) -> Element {
-        if let Values::Real(_) = variable.values {
-            return Element::Real;
-        }
-        let flags = variable.flags.iter().map(|(value, _)| *value);
-        let all: Vec<i64> = range.into_iter().flatten().chain(flags).collect();
-        match () {
-            () if !variable.flags.is_empty() && fit::<i8>(&all) => Element::Byte,
-            () if fit::<i32>(&all) => Element::Int,
-            () => Element::Long,
-        }
-    }
-
-    /// Bytes of a number.
-    pub fn bytes(self) -> usize {
-        match self {
-            Element::Byte => 1,
-            Element::Int => 4,
-            Element::Real | Element::Long => 8,
-        }
-    }
-
     /// Names the number that stands for a missing one.
     fn put_fill_value(self, array: &Array) -> hdf5::Result<()> {
         match self {
@@ -261,11 +226,6 @@ impl Element {
             _ => Err("reals and integers are mixed".into()),
         }
     }
-}
-
-/// Whether all numbers are some of a type.
-fn fit<T: TryFrom<i64>>(numbers: &[i64]) -> bool {
-    numbers.iter().all(|number| T::try_from(*number).is_ok())
 }
 
 fn create<T: H5Type>(builder: DatasetBuilder, name: &str, shape: &[usize]) -> hdf5::Result<Array> {

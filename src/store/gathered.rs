@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::block_file::{self, Unusable};
-use super::encode::Element;
+use super::element::Element;
 use super::join::Blocks;
 use super::slab::Slab;
 use super::{Dataset, StoreError, Variable, schema};
@@ -25,7 +25,7 @@ pub struct CaseVariable {
 }
 
 impl<'a> Blocks<'a> {
-    /// The blocks of `study` of which [images](super::image) are held, by their numbers; those without one are missing. The
+    /// The blocks of `study` of which [images](super::block_image) are held, by their numbers; those without one are missing. The
     /// records of cases in missing blocks come `beside` them.
     pub fn of_images(
         study: &'a Study,

@@ -13,6 +13,7 @@ pub mod dataset;
 mod decode;
 mod difference;
 mod drawn;
+mod element;
 mod encode;
 mod error;
 mod faults;
@@ -48,7 +49,7 @@ pub use attractors::{add_attractors, add_sample};
 pub use attribute::{
     Attribute, TEXT_MEANING, attributes_of, attributes_of_set, constants, has_missing,
 };
-pub use block_content::{image, packed_bytes};
+pub use block_content::{block_image, packed_bytes};
 pub use block_file::{Summary, Unusable};
 pub use block_folder::{BlockFolder, Company, by_outcome};
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
@@ -58,7 +59,7 @@ pub use constraint::{Comparison, Condition, conditions, fulfils, quantity};
 pub use dataset::{Dataset, Values, Variable};
 pub use decode::Archive;
 pub use difference::difference;
-pub use encode::Element;
+pub use element::Element;
 pub use error::{StoreError, Unread};
 pub use file::{
     create_folder, discard_abandoned, discard_unfinished, folder, hold, open, open_changed, put,

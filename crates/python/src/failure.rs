@@ -50,11 +50,11 @@ pub fn of_request(py: Python<'_>, told: String) -> PyErr {
 
 /// A fault of the machine.
 pub fn machine(py: Python<'_>, told: String) -> PyErr {
-    let made = py.import(MODULE).and_then(|it| it.getattr("MachineError")?.call1((told,)));
-    made.map_or_else(|error| error, PyErr::from_value)
+    let raised = py.import(MODULE).and_then(|it| it.getattr("MachineError")?.call1((told,)));
+    raised.map_or_else(|error| error, PyErr::from_value)
 }
 
 fn request(py: Python<'_>, told: String, faults: Vec<Told>) -> PyErr {
-    let made = py.import(MODULE).and_then(|it| it.getattr("_study_error")?.call1((told, faults)));
-    made.map_or_else(|error| error, PyErr::from_value)
+    let raised = py.import(MODULE).and_then(|it| it.getattr("_study_error")?.call1((told, faults)));
+    raised.map_or_else(|error| error, PyErr::from_value)
 }

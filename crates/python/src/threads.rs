@@ -27,8 +27,13 @@ pub fn set_threads(py: Python<'_>, count: Option<i64>) -> PyResult<()> {
         None => Some(0),
         Some(count) => usize::try_from(count).ok().filter(|it| *it > 0),
     };
-    let faulty = || failure::of_request(py, "threads: expected a whole number above zero".into());
-    THREADS.store(count.ok_or_else(faulty)?, Ordering::Relaxed);
+    match count {
+        Some(count) => THREADS.store(count, Ordering::Relaxed),
+        None => {
+            let told = "threads: expected a whole number above zero";
+            return Err(failure::of_request(py, told.to_owned()));
+        }
+    }
     Ok(())
 }
 
