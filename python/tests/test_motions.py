@@ -65,7 +65,9 @@ class Motions(unittest.TestCase):
         belt = capsulemap.Oscillator.from_toml(SYSTEMS / "belt.toml")
         self.assertEqual(belt.name, "mass on a belt")
         orbit = capsulemap.orbit(belt, start={"x": 1})
-        self.assertEqual((orbit.outcome, orbit.period), ("periodic", 1))
+        words = ("simulate", "--system", str(SYSTEMS / "belt.toml"), "--start", "x=1", "--json")
+        told = json.loads(command_line(*words).stdout)["orbit"]
+        self.assertEqual((orbit.outcome, orbit.period), (told["outcome"], told["period"]))
         with self.assertRaises(capsulemap.StudyError):
             orbit.history()
 

@@ -52,7 +52,7 @@ class Results(BesideTheCommandLine):
         self.assert_same_as_file(dataset)
 
     def test_a_refined_basin(self) -> None:
-        axes = {"start_r": Axis("-4 mm", "4 mm", 70), "start_y1": Axis(-0.4, 0.4, 65)}
+        axes = {"start_r": Axis("-4 mm", "4 mm", 130), "start_y1": Axis(-0.4, 0.4, 130)}
         dataset = capsulemap.basin(TWO_MOTIONS.replace(omega=155), axes, refine=True)
         self.assertLess(int((dataset.cycles > 0).sum()), dataset.cycles.size)
         self.assert_same_as_file(dataset)

@@ -1,6 +1,8 @@
 //! The attributes of variables and of a whole dataset, the same for every form in which it is handed out.
 
-use super::catalogue::PERIOD;
+use super::catalogue::{
+    CERTIFICATE, CYCLES, FAILURE_REASON, FAILURE_TIME, OUTCOME, PERIOD, neutral,
+};
 use super::element::Element;
 use super::names::{
     CONVENTIONS, CONVENTIONS_FOLLOWED, FLAG_MEANINGS, FLAG_VALUES, FORMAT, FORMAT_WRITTEN,
@@ -69,4 +71,14 @@ pub fn has_missing(name: &str, element: Element) -> bool {
 pub fn constants(dataset: &Dataset) -> Vec<&str> {
     let constants = dataset.variables.iter().filter(|(_, it)| it.dimensions.is_empty());
     constants.map(|(name, _)| name).chain(dataset.texts.keys()).map(String::as_str).collect()
+}
+
+/// The same of a dataset that has its cases, too: where nothing varies, what is told of the one case is no constant.
+pub fn constants_beside_cases(dataset: &Dataset) -> Vec<&str> {
+    let model = dataset.model();
+    let mut of_case = vec![OUTCOME, PERIOD, CYCLES, FAILURE_REASON, FAILURE_TIME, CERTIFICATE];
+    of_case.extend(neutral(model));
+    let is_of_case =
+        |name: &str| of_case.iter().any(|it| it.name == name) || model.output(name).is_some();
+    constants(dataset).into_iter().filter(|name| !is_of_case(name)).collect()
 }

@@ -47,7 +47,8 @@ pub mod block_file;
 
 pub use attractors::{add_attractors, add_sample};
 pub use attribute::{
-    Attribute, TEXT_MEANING, attributes_of, attributes_of_set, constants, has_missing,
+    Attribute, TEXT_MEANING, attributes_of, attributes_of_set, constants, constants_beside_cases,
+    has_missing,
 };
 pub use block_content::{block_image, packed_bytes};
 pub use block_file::{Summary, Unusable};

@@ -3,7 +3,7 @@
 use capsulemap::store::catalogue::DIRECTION;
 use capsulemap::store::{
     Attribute, Dataset, Element, TEXT_MEANING, Values, Variable, attributes_of, attributes_of_set,
-    constants, has_missing,
+    constants_beside_cases, has_missing,
 };
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
@@ -17,7 +17,7 @@ pub fn of_dataset(py: Python<'_>, dataset: Dataset) -> PyResult<Bound<'_, PyDict
     for (name, attribute) in attributes_of_set(&dataset) {
         attributes.set_item(name, value(py, attribute, Element::Long)?)?;
     }
-    let constants = constants(&dataset);
+    let constants = constants_beside_cases(&dataset);
     if !constants.is_empty() {
         attributes.set_item("coordinates", constants.join(" "))?;
     }
