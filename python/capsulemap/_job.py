@@ -24,7 +24,7 @@ class Status(NamedTuple):
 
 
 class Job:
-    """A study that is computed in the background, in threads that end with it."""
+    """A study that is computed in the background, in threads that end with it, or once nobody holds it any more."""
 
     def __init__(self, job: _capsulemap.Job) -> None:
         self._job = job
@@ -102,5 +102,5 @@ def waited(job: Job, *, has_cases: bool) -> xarray.Dataset:
             raise
         done, cases = job._job.progress()
         told = f"interrupted: {done} of {cases} cases are done, the others have the outcome \"missing\""
-        warnings.warn(told, PartialResultWarning, stacklevel=3)
+        warnings.warn(told, PartialResultWarning, stacklevel=4)
         return job.partial()

@@ -74,7 +74,7 @@ def _numbers(done: _capsulemap.Partial, name: str, shape: tuple[int, ...], kind:
             support = indexing.IndexingSupport.BASIC
             return indexing.explicit_indexing_adapter(key, self.shape, support, self.part)
 
-        def part(self, key: tuple[Any, ...]) -> numpy.ndarray:
+        def part(self, key: tuple[Any, ...]) -> Any:
             if self.whole is None:
                 self.whole = done.numbers(name)
             return self.whole[key]

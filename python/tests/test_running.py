@@ -129,10 +129,24 @@ class Background(unittest.TestCase):
         self.assertEqual(int((first.progression_speed.notnull()).sum()), done)
         self.assertEqual(int((job.wait().outcome >= 0).sum()), int((last.outcome >= 0).sum()))
 
-    def test_a_job_that_fails_says_why(self) -> None:
-        branch = '[[branches]]\nname = "a"\nalong = "omega"\nfrom = "50 rad/s"\nto = "60 rad/s"\n'
+    def test_a_job_of_cases_and_branches(self) -> None:
+        branch = '[[branches]]\nname = "a"\nalong = "omega"\nfrom = "54 rad/s"\nto = "56 rad/s"\n'
         study = capsulemap.Study.from_toml(FIG5.replace(omega=55).to_toml() + branch)
-        self.assertIn("branch_point", study.run(blocking=False).wait().sizes)
+        dataset = study.run(blocking=False).wait()
+        self.assertIn("branch_point", dataset.sizes)
+        self.assertIn("outcome", dataset)
+
+    @unittest.skipUnless(os.path.isdir("/proc/self/task"), "threads are counted on Linux alone")
+    def test_a_job_that_nobody_holds_ends(self) -> None:
+        before = len(os.listdir("/proc/self/task"))
+        job = capsulemap.sweep(FIG5, MILLION, blocking=False)
+        time.sleep(0.3)
+        self.assertGreater(len(os.listdir("/proc/self/task")), before)
+        del job
+        limit = time.monotonic() + 10
+        while len(os.listdir("/proc/self/task")) > before and time.monotonic() < limit:
+            time.sleep(0.02)
+        self.assertEqual(len(os.listdir("/proc/self/task")), before)
 
     def test_eight_threads_at_once(self) -> None:
         results: dict[int, xarray.Dataset] = {}

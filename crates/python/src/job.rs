@@ -52,6 +52,13 @@ impl Job {
     }
 }
 
+impl Drop for Job {
+    /// Ends a computation whose result nobody can ask for any more.
+    fn drop(&mut self) {
+        self.computation.study.stop();
+    }
+}
+
 impl Computation {
     fn run(&self, wanted: Wanted) {
         let run = || self.study.run(wanted, &silent);
