@@ -121,7 +121,7 @@ documentation() {
 
 # The engine for any system, without HDF5, plotters and clap.
 engine_alone() {
-    cargo check --no-default-features --lib
+    cargo check -p capsulemap --no-default-features --lib
     cargo check -p capsulemap-engine --examples
     local count
     count=$(cargo tree -p capsulemap --no-default-features --edges normal --prefix none | sort -u | wc -l)

@@ -2,15 +2,13 @@
 
 use std::path::Path;
 
-use crate::run::{self, has_attractors};
 use crate::store::{
-    self, BlockFolder, Blocks, Company, Dataset, StoreError, Unusable, add_attractors, add_sample,
-    keep_branches,
+    self, BlockFolder, Blocks, Company, Dataset, StoreError, Unusable, keep_branches,
 };
-use crate::study::Refine;
 
 use super::clear::clear_away;
 use super::error::CampaignError;
+use super::joining::Joining;
 use super::kept::{Kept, branches_of, check_branches, kept};
 use super::report::{Event, Report, Reports, Stage};
 use super::request::{Campaign, Complete};
@@ -107,16 +105,8 @@ impl Campaign<'_> {
             false => all_of(&folder, self.open_blocks(&folder))?,
         };
         reports.send(Event::Joining { folder: folder.path() })?;
-        let mut frame = blocks.frame();
-        match self.study.refine {
-            Some(Refine::Attractors) if !is_partial => {
-                let known = blocks.final_motions()?;
-                blocks.add(run::complete_basin(self.study, &known, self.machine)?);
-            }
-            Some(Refine::Outputs(_)) => self.infer(&mut frame, &mut blocks, is_partial)?,
-            _ => {}
-        }
-        self.add_attractors(&mut frame, &blocks, reports)?;
+        let joining = Joining { study: self.study, machine: self.machine, reports };
+        let frame = joining.frame(&mut blocks, is_partial)?;
         // Branches that were continued meanwhile are in the file, and none can come before it is replaced.
         let _held = store::hold(file, |folder| reports.wait(folder))?;
         self.write(&blocks, frame, file, reports)?;
@@ -146,53 +136,6 @@ impl Campaign<'_> {
         }
         report_left_out(folder, &blocks, reports)?;
         Ok(blocks)
-    }
-
-    /// Infers the cases of a refined map that have not been computed, after those that the tiles lack have been, unless it is
-    /// partial; then a sample of them is computed as a check, too.
-    fn infer(
-        &self,
-        frame: &mut Dataset,
-        blocks: &mut Blocks<'_>,
-        is_partial: bool,
-    ) -> Result<(), CampaignError> {
-        if !is_partial {
-            let known = blocks.map_points()?;
-            blocks.add(run::complete_map(self.study, &known, self.machine)?);
-        }
-        let inferred = run::infer_cases(self.study, &blocks.map_points()?);
-        if !is_partial && let Some(sample) = run::check_cases(self.study, &inferred, self.machine)?
-        {
-            add_sample(frame, sample);
-        }
-        blocks.infer(inferred);
-        Ok(())
-    }
-
-    /// Searches for the attractors that the cases of `blocks` have ended on, if there are any.
-    fn add_attractors(
-        &self,
-        frame: &mut Dataset,
-        blocks: &Blocks<'_>,
-        reports: &Reports<'_>,
-    ) -> Result<(), CampaignError> {
-        if !has_attractors(self.study) {
-            return Ok(());
-        }
-        reports.send(Event::Begun(Stage::Linking, run::links(self.study)))?;
-        let states = blocks.final_motions()?;
-        let attractors =
-            run::attractors(self.study, &states, self.machine, || reports.step(Stage::Linking))?;
-        let mut table = run::attractor_table(self.study, &attractors, &states, self.machine)?;
-        drop(states);
-        // Those of a refined study that are followed lie near the boundaries, and take longer than the others would.
-        if !table.rows.is_empty() && self.study.refine.is_none() {
-            let cycles = blocks.verdicts()?.into_iter().map(|(case, _, cycles)| (case, cycles));
-            table.note_cycles(&attractors, cycles);
-        }
-        reports.send(Event::Ended(Stage::Linking))?;
-        add_attractors(frame, self.study, &attractors, &table);
-        Ok(())
     }
 
     /// Writes the file, with the branches that the output holds.

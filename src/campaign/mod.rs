@@ -17,6 +17,7 @@ pub mod error;
 pub mod front_curve;
 pub mod in_memory;
 mod join;
+mod joining;
 pub mod kept;
 pub mod kept_fronts;
 pub mod kept_searches;
@@ -46,7 +47,7 @@ pub mod verify;
 
 pub use answer::{Answer, Named, Refined, Searched};
 pub use error::{CampaignError, Cause};
-pub use in_memory::results_in_memory;
+pub use in_memory::{InMemory, Moment, Snapshot, Wanted, results_in_memory};
 pub use kept::Kept;
 pub use kept_fronts::KeptFront;
 pub use kept_searches::{KeptSearches, searches_path};
@@ -64,6 +65,8 @@ pub use result_file::{block_path, output_path};
 pub use robustness::{Robustness, Tolerances};
 pub use share::Task;
 pub use status::{BlockStatus, Pace, Status};
-pub use study_source::{is_system_alone, read_study, read_study_or_results, read_system, study_of};
+pub use study_source::{
+    check_names, is_system_alone, read_study, read_study_or_results, read_system, study_of,
+};
 pub use trade_off::{Between, TradeOff};
 pub use verify::{Difference, Differs, Sample, Verified, verify};

@@ -40,7 +40,9 @@ fn with_values(name: &str, own: &str, file: &str, path: &Path) -> Result<Study, 
 }
 
 /// Makes sure that a system has no name for something which results have for something else.
-fn check_names(name: &str, model: &'static Description) -> Result<(), CampaignError> {
+///
+/// Fails with every such name.
+pub fn check_names(name: &str, model: &'static Description) -> Result<(), CampaignError> {
     let taken = model.equations.map(|_| taken_twice(model)).into_iter().flatten();
     let faults = taken.map(|taken| Fault {
         line: None,

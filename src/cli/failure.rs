@@ -2,7 +2,6 @@
 
 use std::fmt;
 use std::path::Path;
-use std::process::ExitCode;
 
 use super::readable::blocks_kept;
 use crate::campaign::{CampaignError, Cause};
@@ -50,8 +49,8 @@ impl Failure {
     }
 
     /// The program's exit code.
-    pub fn exit_code(&self) -> ExitCode {
-        ExitCode::from(self.code)
+    pub fn exit_code(&self) -> u8 {
+        self.code
     }
 }
 

@@ -49,6 +49,7 @@ mod varied;
 mod verify;
 mod watch;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -135,8 +136,13 @@ enum Command {
 
 /// Runs the program, built from this commit, on the command line it was started with.
 pub fn main(commit: &'static str) -> ExitCode {
+    ExitCode::from(run(commit, std::env::args_os()))
+}
+
+/// Runs the program, built from this commit, on these words, of which the first names the program; returns the exit code.
+pub fn run(commit: &'static str, words: impl IntoIterator<Item = OsString>) -> u8 {
     provenance::built_from(commit);
-    let command = Arguments::parse().command;
+    let command = Arguments::parse_from(words).command;
     let done = provenance::given_time().map_err(|text| {
         let expected = "expected a whole number of seconds since 1970";
         Failure::request(format!("SOURCE_DATE_EPOCH = \"{text}\" in the environment: {expected}"))
@@ -167,7 +173,7 @@ pub fn main(commit: &'static str) -> ExitCode {
         }
     });
     let code = match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => {
             notify(&format!("capsulemap: {failure}"));
             failure.exit_code()

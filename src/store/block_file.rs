@@ -5,14 +5,16 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use serde::{Deserialize, Serialize};
 
+use super::block_source::BlockSource;
 use super::checksum::{self, Checksum};
 use super::provenance;
 use super::{StoreError, file};
@@ -84,7 +86,7 @@ struct Place {
 pub struct BlockFile {
     /// Its head.
     pub head: Head,
-    path: PathBuf,
+    source: BlockSource,
     /// Where the first column begins.
     begin: u64,
 }
@@ -168,9 +170,17 @@ pub fn open(folder: &Path, fingerprint: &str, number: usize) -> Result<BlockFile
     file.rewind().map_err(Unusable::Refused)?;
     let (head, begin) = read_head(file)?;
     match foreign(&head, fingerprint, number) {
-        None => Ok(BlockFile { head, path, begin }),
+        None => Ok(BlockFile { head, source: BlockSource::File(path), begin }),
         Some(why) => Err(Unusable::Foreign(why)),
     }
+}
+
+/// The block of an [image] that is held in memory.
+///
+/// Fails if the bytes are those of no block.
+pub fn of_image(image: Arc<[u8]>) -> Result<BlockFile, Unusable> {
+    let (head, begin) = read_head(&image[..])?;
+    Ok(BlockFile { head, source: BlockSource::Memory(image), begin })
 }
 
 /// The head of the file of block `number` in `folder`; its columns are not read, but they are all there.
@@ -202,7 +212,7 @@ fn refused(error: io::Error) -> Unusable {
 }
 
 /// The head of a block file, and where the first column begins.
-fn read_head(file: File) -> Result<(Head, u64), Unusable> {
+fn read_head(file: impl Read) -> Result<(Head, u64), Unusable> {
     let mut reader = BufReader::new(file);
     let format = read_line(&mut reader)?;
     if format.strip_suffix(b"\n") != Some(FORMAT.as_bytes()) {
@@ -214,7 +224,7 @@ fn read_head(file: File) -> Result<(Head, u64), Unusable> {
 }
 
 /// A line of a head, with its end.
-fn read_line(reader: &mut BufReader<File>) -> Result<Vec<u8>, Unusable> {
+fn read_line(reader: &mut BufReader<impl Read>) -> Result<Vec<u8>, Unusable> {
     let mut line = Vec::new();
     let read = reader.take(LONGEST_HEAD).read_until(b'\n', &mut line);
     read.map(|_| line).map_err(Unusable::Refused)
@@ -241,8 +251,8 @@ impl BlockFile {
             return Ok(None);
         };
         let count = self.head.block.computed.saturating_mul(width);
-        match self.unpack(at, count).map_err(StoreError::system(&self.path, "reading"))? {
-            None => Err(StoreError::Damaged { path: self.path.clone() }),
+        match self.unpack(at, count).map_err(StoreError::system(self.source.path(), "reading"))? {
+            None => Err(self.damaged()),
             numbers => Ok(numbers),
         }
     }
@@ -250,12 +260,11 @@ impl BlockFile {
     /// So many numbers of the column at a place; none if there is another count.
     fn unpack(&self, at: usize, count: usize) -> io::Result<Option<Numbers>> {
         let columns = &self.head.columns;
-        let mut file = File::open(&self.path)?;
         let before = columns[..at].iter().map(|column| column.bytes);
-        file.seek(SeekFrom::Start(before.fold(self.begin, u64::saturating_add)))?;
+        let source = self.source.from(before.fold(self.begin, u64::saturating_add))?;
         let mut bytes = Vec::new();
         let most = (count as u64).saturating_mul(8);
-        let packed = file.take(columns[at].bytes);
+        let packed = source.take(columns[at].bytes);
         ZlibDecoder::new(packed).take(most.saturating_add(1)).read_to_end(&mut bytes)?;
         if bytes.len() as u64 != most {
             return Ok(None);
@@ -271,7 +280,7 @@ impl BlockFile {
     pub fn reals(&self, name: &str, width: usize) -> Result<Vec<f64>, StoreError> {
         match self.column(name, width)? {
             Some(Numbers::Real(all)) => Ok(all),
-            _ => Err(StoreError::Damaged { path: self.path.clone() }),
+            _ => Err(self.damaged()),
         }
     }
 
@@ -279,7 +288,7 @@ impl BlockFile {
     pub fn integers(&self, name: &str, width: usize) -> Result<Vec<i64>, StoreError> {
         match self.column(name, width)? {
             Some(Numbers::Integer(all)) => Ok(all),
-            _ => Err(StoreError::Damaged { path: self.path.clone() }),
+            _ => Err(self.damaged()),
         }
     }
 
@@ -291,8 +300,12 @@ impl BlockFile {
         let rises = numbers.is_sorted_by(|a, b| a < b);
         match numbers.iter().all(|it| (0..count as i64).contains(it)) && rises {
             true => Ok(numbers.into_iter().map(|it| it as usize).collect()),
-            false => Err(StoreError::Damaged { path: self.path.clone() }),
+            false => Err(self.damaged()),
         }
+    }
+
+    fn damaged(&self) -> StoreError {
+        StoreError::Damaged { path: self.source.path().to_owned() }
     }
 
     /// The least and the greatest number of a column of integers, if it is one and has any.

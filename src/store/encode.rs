@@ -11,7 +11,9 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset as Array, DatasetBuilder, File, H5Type, Hyperslab, Location};
 use ndarray::{ArrayD, ArrayView1};
 
-use super::catalogue::{DIRECTION, PERIOD};
+use super::attribute::{self, Attribute, TEXT_MEANING, attributes_of, constants, has_missing};
+use super::catalogue::DIRECTION;
+use super::element::Element;
 use super::names::*;
 use super::{Dataset, StoreError, Values, Variable, scale};
 
@@ -62,10 +64,8 @@ pub fn lay_out(file: &File, dataset: &Dataset, path: &Path) -> Result<Scales, St
         put_number_or_words(file, name, words)
             .map_err(StoreError::encoding(path, format!("storing the attribute {name}")))?;
     }
-    // What is the same for all cases, so that xarray does not spread it over them.
-    let constants = dataset.variables.iter().filter(|(_, it)| it.dimensions.is_empty());
-    let constants = constants.map(|(name, _)| name).chain(dataset.texts.keys());
-    let constants: Vec<&str> = constants.map(String::as_str).collect();
+    // So that xarray does not spread them over the cases.
+    let constants = constants(dataset);
     if !constants.is_empty() {
         put_attribute(file, COORDINATES, &constants.join(" "))
             .map_err(StoreError::encoding(path, format!("storing the attribute {COORDINATES}")))?;
@@ -138,8 +138,7 @@ pub fn attach(
     element: Element,
     scales: &[(String, Array)],
 ) -> hdf5::Result<()> {
-    // No motion has the period 0: the number stands for none.
-    if element == Element::Real || name == PERIOD.name {
+    if has_missing(name, element) {
         element.put_fill_value(array)?;
     }
     let mut positions = Vec::new();
@@ -167,19 +166,16 @@ fn put_labelled(file: &File, name: &str, variable: &Variable) -> hdf5::Result<Ar
 
 /// Adds the unit, the meaning and the flags of a variable.
 pub fn label(array: &Array, variable: &Variable, element: Element) -> hdf5::Result<()> {
-    put_attribute(array, UNITS, &variable.unit)?;
-    put_attribute(array, LONG_NAME, &variable.long_name)?;
-    if variable.flags.is_empty() {
-        return Ok(());
+    for (name, attribute) in attributes_of(variable) {
+        match (attribute, element) {
+            (Attribute::Words(words), _) => put_attribute(array, name, &words)?,
+            (Attribute::Flags(all), Element::Byte) => put_flag_values(array, &all, |it| it as i8)?,
+            (Attribute::Flags(all), Element::Int) => put_flag_values(array, &all, |it| it as i32)?,
+            (Attribute::Flags(all), _) => put_flag_values(array, &all, |it| it)?,
+            (Attribute::Whole(_) | Attribute::Real(_), _) => {}
+        }
     }
-    let values: Vec<i64> = variable.flags.iter().map(|(value, _)| *value).collect();
-    match element {
-        Element::Byte => put_flag_values(array, &values, |value| value as i8)?,
-        Element::Int => put_flag_values(array, &values, |value| value as i32)?,
-        Element::Long | Element::Real => put_flag_values(array, &values, |value| value)?,
-    }
-    let meanings: Vec<&str> = variable.flags.iter().map(|(_, text)| text.as_str()).collect();
-    put_attribute(array, FLAG_MEANINGS, &meanings.join(" "))
+    Ok(())
 }
 
 /// The integers that a category takes, in the type of the category, as CF asks.
@@ -193,43 +189,7 @@ fn put_flag_values<T: H5Type>(
     Ok(())
 }
 
-/// The type of a variable's numbers in the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Element {
-    /// Eight bytes, a real.
-    Real,
-    /// One byte.
-    Byte,
-    /// Four bytes.
-    Int,
-    /// Eight bytes.
-    Long,
-}
-
 impl Element {
-    /// The narrowest type for the numbers of a variable, of which those that are integers are in `range`.
-    pub fn of(variable: &Variable, range: Option<[i64; 2]>) -> Element {
-        if let Values::Real(_) = variable.values {
-            return Element::Real;
-        }
-        let flags = variable.flags.iter().map(|(value, _)| *value);
-        let all: Vec<i64> = range.into_iter().flatten().chain(flags).collect();
-        match () {
-            () if !variable.flags.is_empty() && fit::<i8>(&all) => Element::Byte,
-            () if fit::<i32>(&all) => Element::Int,
-            () => Element::Long,
-        }
-    }
-
-    /// Bytes of a number.
-    pub fn bytes(self) -> usize {
-        match self {
-            Element::Byte => 1,
-            Element::Int => 4,
-            Element::Real | Element::Long => 8,
-        }
-    }
-
     /// Names the number that stands for a missing one.
     fn put_fill_value(self, array: &Array) -> hdf5::Result<()> {
         match self {
@@ -266,11 +226,6 @@ impl Element {
             _ => Err("reals and integers are mixed".into()),
         }
     }
-}
-
-/// Whether all numbers are some of a type.
-fn fit<T: TryFrom<i64>>(numbers: &[i64]) -> bool {
-    numbers.iter().all(|number| T::try_from(*number).is_ok())
 }
 
 fn create<T: H5Type>(builder: DatasetBuilder, name: &str, shape: &[usize]) -> hdf5::Result<Array> {
@@ -310,20 +265,18 @@ pub fn chunk_shape(shape: &[usize], element: usize) -> Vec<usize> {
 
 /// An attribute of the protocol as a number where it is one, any other as it is.
 fn put_number_or_words(file: &File, name: &str, words: &str) -> hdf5::Result<()> {
-    if let (true, Ok(whole)) = (name.starts_with(OF_PROTOCOL), words.parse::<i64>()) {
-        return file.new_attr::<i64>().create(name)?.write_scalar(&whole);
+    match attribute::number(name, words) {
+        Attribute::Whole(whole) => file.new_attr::<i64>().create(name)?.write_scalar(&whole),
+        Attribute::Real(real) => file.new_attr::<f64>().create(name)?.write_scalar(&real),
+        _ => put_attribute(file, name, words),
     }
-    if let (true, Ok(real)) = (name.starts_with(OF_PROTOCOL), words.parse::<f64>()) {
-        return file.new_attr::<f64>().create(name)?.write_scalar(&real);
-    }
-    put_attribute(file, name, words)
 }
 
 /// A string variable, which unlike an attribute may have any length.
 fn put_text(file: &File, name: &str, text: &str) -> hdf5::Result<()> {
     let array = file.new_dataset::<VarLenUnicode>().create(name)?;
     array.write_scalar(&string(text)?)?;
-    put_attribute(&array, LONG_NAME, "text kept beside the numbers")
+    put_attribute(&array, LONG_NAME, TEXT_MEANING)
 }
 
 fn put_attribute(place: &Location, name: &str, words: &str) -> hdf5::Result<()> {

@@ -29,14 +29,14 @@ const FAILED: &str = Outcome::Failed.name();
 
 /// The blocks of a study, of which some may be missing.
 pub struct Blocks<'a> {
-    study: &'a Study,
-    files: Vec<BlockFile>,
+    pub(super) study: &'a Study,
+    pub(super) files: Vec<BlockFile>,
     /// The numbers of those that are not there, and why.
     pub missing: Vec<(usize, Unusable)>,
     /// Cases of a refined study that were computed once all tiles were there, in the order of their indices.
-    between: Vec<Record>,
+    pub(super) between: Vec<Record>,
     /// Cases of a refined map that are inferred.
-    inferred: InferredCases,
+    pub(super) inferred: InferredCases,
 }
 
 impl<'a> Blocks<'a> {
@@ -188,7 +188,7 @@ impl<'a> Blocks<'a> {
         joined::write(frame, &columns, path, |it, slab| self.fill(it, &models, slab), done)
     }
 
-    fn column(&self, name: &str, model: &Variable, between: &Dataset) -> Column {
+    pub(super) fn column(&self, name: &str, model: &Variable, between: &Dataset) -> Column {
         let label = schema::over_axes(self.study, name, model.clone(), !self.missing.is_empty());
         let between = between.variables.get(name).and_then(|it| it.values.range());
         let ranges = self.files.iter().filter_map(|file| file.range(name)).chain(between).flatten();
@@ -205,7 +205,12 @@ impl<'a> Blocks<'a> {
     }
 
     /// The numbers of a column at the cases of a slab.
-    fn fill(&self, column: &Column, models: &Dataset, slab: &Slab) -> Result<Values, StoreError> {
+    pub(super) fn fill(
+        &self,
+        column: &Column,
+        models: &Dataset,
+        slab: &Slab,
+    ) -> Result<Values, StoreError> {
         let name = column.name.as_str();
         let model = &models.variables[name].values;
         let shape = self.study.shape();

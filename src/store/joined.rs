@@ -9,7 +9,8 @@ use hdf5::Dataset as Array;
 use tempfile::NamedTempFile;
 
 use super::decode::{Archive, hyperslab};
-use super::encode::{self, Element, Scales};
+use super::element::Element;
+use super::encode::{self, Scales};
 use super::faults::faults;
 use super::file::{folder, temporary};
 use super::plain::place;
@@ -89,7 +90,8 @@ fn complete(temporary: &mut NamedTempFile, path: &Path) -> Result<(), StoreError
 }
 
 impl Column {
-    fn element(&self) -> Element {
+    /// The type of its numbers in the file.
+    pub fn element(&self) -> Element {
         Element::of(&self.label, self.range)
     }
 

@@ -1,7 +1,10 @@
 //! Files of results: writes records with their provenance and reads them back.
 
+mod attribute;
 mod attractors;
 pub mod block_folder;
+mod block_content;
+mod block_source;
 mod boundary;
 mod branch_columns;
 pub mod branches;
@@ -10,11 +13,13 @@ pub mod dataset;
 mod decode;
 mod difference;
 mod drawn;
+mod element;
 mod encode;
 mod error;
 mod faults;
 mod file;
 mod flat;
+mod gathered;
 mod input;
 mod join;
 mod joined;
@@ -41,8 +46,13 @@ mod constraint;
 pub mod block_file;
 
 pub use attractors::{add_attractors, add_sample};
+pub use attribute::{
+    Attribute, TEXT_MEANING, attributes_of, attributes_of_set, constants, constants_beside_cases,
+    has_missing,
+};
+pub use block_content::{block_image, packed_bytes};
 pub use block_file::{Summary, Unusable};
-pub use block_folder::{BlockFolder, Company, by_outcome, packed_bytes};
+pub use block_folder::{BlockFolder, Company, by_outcome};
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
 pub use candidates::{Candidates, candidates, takes_part};
 pub use case_table::{CaseTable, Column};
@@ -50,11 +60,13 @@ pub use constraint::{Comparison, Condition, conditions, fulfils, quantity};
 pub use dataset::{Dataset, Values, Variable};
 pub use decode::Archive;
 pub use difference::difference;
+pub use element::Element;
 pub use error::{StoreError, Unread};
 pub use file::{
     create_folder, discard_abandoned, discard_unfinished, folder, hold, open, open_changed, put,
     read, try_to_begin, write,
 };
+pub use gathered::CaseVariable;
 pub use input::{Pipes, open_input, read_input};
 pub use join::{Blocks, FailedCase, write_beside_cases};
 pub use line_file::{LineFile, Lines, read_lines, sealed, unsealed};

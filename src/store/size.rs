@@ -11,7 +11,8 @@ use crate::run::Record;
 use crate::study::Study;
 
 use super::catalogue::CASE;
-use super::encode::{self, COMPRESSED_FROM_BYTES, COMPRESSION, Element};
+use super::element::Element;
+use super::encode::{self, COMPRESSED_FROM_BYTES, COMPRESSION};
 use super::slab::{Filling, Slab};
 use super::{Dataset, StoreError, Values, Variable, schema};
 

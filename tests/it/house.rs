@@ -12,13 +12,15 @@ use std::path::{Path, PathBuf};
 pub const LIBRARY: [&str; 5] =
     ["src", "crates/engine/src", "crates/models/src", "crates/text/src", "crates/commit/src"];
 /// These, the tests and the benches.
-pub const FOLDERS: [&str; 11] = [
+pub const FOLDERS: [&str; 13] = [
     "src",
     "crates/engine/src",
     "crates/models/src",
     "crates/text/src",
     "crates/commit/src",
     "crates/oscillators/src",
+    "crates/python/src",
+    "crates/python/tests",
     "crates/engine/tests",
     "crates/models/tests",
     "crates/text/tests",
@@ -53,7 +55,9 @@ const FLOORS: [&str; 22] = [
 ];
 
 /// Crates that some floors alone may use.
-const RESERVED: [(&[&str], &[&str]); 6] = [
+const RESERVED: [(&[&str], &[&str]); 7] = [
+    // They are for crates/python, which is none of the library's folders.
+    (&[], &["pyo3", "numpy"]),
     (&["run"], &["rayon"]),
     (&["text", "study"], &["toml"]),
     (&["store"], &["hdf5", "hdf5_sys"]),

@@ -100,7 +100,7 @@ fn the_tests_are_run_as_the_readme_says() {
 
 #[test]
 fn the_case_of_the_readme_is_the_one_of_fig_6() {
-    let words: Vec<String> = split(blocks("sh")[2]);
+    let words: Vec<String> = split(blocks("sh")[3]);
     let words: Vec<&str> = words.iter().skip(1).map(String::as_str).collect();
     let printed = capsulemap(&words, Path::new("."));
     let object: serde_json::Value = serde_json::from_str(&printed).expect("JSON");

@@ -1,0 +1,82 @@
+"""Results as labelled datasets: the variables, coordinates and attributes that a reader of the program's file has."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from . import _capsulemap
+
+if TYPE_CHECKING:
+    import numpy
+    import xarray
+
+
+def open(path: str | os.PathLike[str]) -> xarray.Dataset:  # noqa: A001
+    """The results in a file of the program, all in memory.
+
+    The same as ``xarray.open_dataset(path).load()``, without a library that reads HDF5 in Python, and with a check of the file's
+    checksum. Raises StudyError where it is no file of results, and MachineError where it cannot be read.
+    """
+    return dataset(_capsulemap.read_results(os.fspath(path)))
+
+
+def dataset(raw: dict[str, Any]) -> xarray.Dataset:
+    """What the library hands out as a dataset, in which missing numbers are NaN."""
+    return _decoded(_variables(raw), raw["attributes"]).load()
+
+
+def partial(done: _capsulemap.Partial) -> xarray.Dataset:
+    """The cases that were done at a moment as a dataset whose numbers are put together as they are asked for."""
+    import xarray
+    from xarray.core import indexing
+
+    raw = done.frame()
+    variables = _variables(raw)
+    for name, dimensions, shape, kind, attributes in done.labels():
+        numbers = indexing.LazilyIndexedArray(_numbers(done, name, shape, kind))
+        variables[name] = xarray.Variable(dimensions, numbers, attributes)
+    return _decoded(variables, raw["attributes"])
+
+
+def arrays(raw: dict[str, Any]) -> dict[str, tuple[Any, dict[str, Any]]]:
+    """The values and the attributes of each variable, without xarray."""
+    return {name: (values, own) for name, (_, values, own) in raw["variables"].items()}
+
+
+def _variables(raw: dict[str, Any]) -> dict[str, Any]:
+    import numpy
+
+    each = raw["variables"].items()
+    return {name: (dimensions, numpy.asarray(values), own) for name, (dimensions, values, own) in each}
+
+
+def _decoded(variables: dict[str, Any], attributes: dict[str, Any]) -> xarray.Dataset:
+    import xarray
+
+    # Times are seconds as numbers.
+    return xarray.decode_cf(xarray.Dataset(variables, attrs=attributes), decode_times=False)
+
+
+def _numbers(done: _capsulemap.Partial, name: str, shape: tuple[int, ...], kind: str) -> Any:
+    """The numbers of a variable, which are put together when they are first asked for."""
+    import numpy
+    from xarray.backends import BackendArray
+    from xarray.core import indexing
+
+    class Numbers(BackendArray):
+        def __init__(self) -> None:
+            self.shape = shape
+            self.dtype = numpy.dtype(kind)
+            self.whole: numpy.ndarray | None = None
+
+        def __getitem__(self, key: indexing.ExplicitIndexer) -> Any:
+            support = indexing.IndexingSupport.BASIC
+            return indexing.explicit_indexing_adapter(key, self.shape, support, self.part)
+
+        def part(self, key: tuple[Any, ...]) -> Any:
+            if self.whole is None:
+                self.whole = done.numbers(name)
+            return self.whole[key]
+
+    return Numbers()

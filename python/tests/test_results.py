@@ -1,0 +1,152 @@
+"""Datasets are those of the command line's files: numbers to the bit, labels and attributes."""
+
+from __future__ import annotations
+
+import os
+import random
+import unittest
+
+import capsulemap
+import numpy
+import xarray
+from capsulemap import Axis, Draws
+
+from program import FIG5, SYSTEMS, TWO_MOTIONS, BesideTheCommandLine
+
+STUDIES = int(os.environ.get("STUDIES", "8"))
+"""How many random studies are compared."""
+
+
+class Results(BesideTheCommandLine):
+    def test_a_sweep_with_inherited_starts(self) -> None:
+        dataset = capsulemap.sweep(
+            FIG5,
+            {"omega": numpy.linspace(60, 90, 7)},
+            inherit="omega",
+            directions=["upward", "downward"],
+            protocol={"points": 3, "impact_points": 2},
+        )
+        self.assertEqual(dict(dataset.progression_speed.sizes), {"omega": 7, "direction": 2})
+        self.assertEqual(dataset.progression_speed.attrs["units"], "m/s")
+        self.assertGreater(float(dataset.progression_speed.sel(omega=75, direction="upward")), 0.005)
+        self.assert_same_as_file(dataset)
+
+    def test_a_sweep_with_histories_and_units_of_its_own(self) -> None:
+        axes = {"k2": ["2 kN/m", "20 kN/m"], "omega": Axis("10 Hz", "12 Hz", 3, spacing="logarithmic")}
+        dataset = capsulemap.sweep(
+            capsulemap.Capsule(p_d="4 N", delta="1.5 mm"),
+            axes,
+            outputs=["progression_speed", "power"],
+            history={"cycles": 2, "samples_per_cycle": 10},
+            title="µ and \"quotes\"",
+        )
+        self.assertEqual(dataset.history_r.sizes["history_time"], 21)
+        self.assertEqual(dataset.attrs["title"], "µ and \"quotes\"")
+        self.assert_same_as_file(dataset)
+
+    def test_a_basin_with_its_attractors(self) -> None:
+        axes = {"start_r": Axis("-4 mm", "4 mm", 12), "start_y1": Axis(-0.4, 0.4, 10)}
+        dataset = capsulemap.basin(TWO_MOTIONS.replace(omega=155), axes)
+        self.assertEqual(dataset.sizes["attractor_index"], 2)
+        self.assertAlmostEqual(float(dataset.attractor_share.sum()), 1.0)
+        self.assert_same_as_file(dataset)
+
+    def test_a_refined_basin(self) -> None:
+        axes = {"start_r": Axis("-4 mm", "4 mm", 130), "start_y1": Axis(-0.4, 0.4, 130)}
+        dataset = capsulemap.basin(TWO_MOTIONS.replace(omega=155), axes, refine=True)
+        self.assertLess(int((dataset.cycles > 0).sum()), dataset.cycles.size)
+        self.assert_same_as_file(dataset)
+
+    def test_a_refined_map(self) -> None:
+        axes = {"omega": Axis(110, 180, 66), "p_d": Axis(2, 4, 64)}
+        dataset = capsulemap.sweep(TWO_MOTIONS, axes, refine={"progression_speed": "30 mm/s"})
+        self.assertIn("inferred", dataset.outcome.attrs["flag_meanings"])
+        self.assert_same_as_file(dataset)
+
+    def test_draws(self) -> None:
+        drawn = {"omega": (110, 180), "p_d": Axis("2 N", "4 N")}
+        for kind in ("uniform", "low-discrepancy"):
+            dataset = capsulemap.sweep(TWO_MOTIONS, drawn, draws=Draws(12, seed=3, kind=kind))
+            self.assertEqual(dict(dataset.omega.sizes), {"draw": 12})
+            self.assert_same_as_file(dataset)
+
+    def test_a_branch(self) -> None:
+        dataset = capsulemap.branch(
+            TWO_MOTIONS.replace(omega=140), "omega", (138, "150 rad/s"), start={"y1": 0.3}
+        )
+        self.assertGreater(dataset.sizes["branch_point"], 2)
+        self.assert_same_as_file(dataset, "continue")
+
+    def test_cases_and_branches_of_one_study(self) -> None:
+        study = capsulemap.Study.from_toml(
+            TWO_MOTIONS.to_toml()
+            + """
+[[axes]]
+name = "omega"
+values = ["140 rad/s", "155 rad/s", "160 rad/s"]
+[[branches]]
+name = "progression"
+along = "omega"
+at = { omega = "141 rad/s" }
+start = { y1 = "0.3 m/s" }
+from = "140 rad/s"
+to = "143 rad/s"
+"""
+        )
+        self.assertEqual(study.sizes, {"omega": 3})
+        self.assert_same_as_file(study.run(), "sweep", "continue")
+
+    def test_an_oscillator_given_as_text(self) -> None:
+        belt = capsulemap.Oscillator.from_toml(SYSTEMS / "belt.toml", c=0.05)
+        dataset = capsulemap.sweep(belt, {"belt": [1.0, 1.5]}, start={"x": 1.0})
+        self.assertEqual(float(dataset.c), 0.05)
+        self.assert_same_as_file(dataset)
+
+    def test_one_case(self) -> None:
+        self.assert_same_as_file(capsulemap.sweep(FIG5.replace(omega=77.91), {}))
+
+    def test_the_family_of_capsules(self) -> None:
+        capsule = FIG5.replace(drive="square", duty=0.3, k3="20 kN/m", delta_3="4 mm", omega=60)
+        dataset = capsulemap.sweep(capsule, {"incline": numpy.array([0.0, 0.05])})
+        self.assertEqual(dataset.attrs["drive"], "square")
+        self.assert_same_as_file(dataset)
+
+    def test_random_studies(self) -> None:
+        random_numbers = random.Random(42)
+        for number in range(STUDIES):
+            with self.subTest(number=number):
+                self.assert_same_as_file(random_sweep(random_numbers))
+
+
+def random_sweep(numbers: random.Random) -> xarray.Dataset:
+    """A small sweep of a capsule that is drawn."""
+    capsule = capsulemap.Capsule(
+        omega=numbers.uniform(20, 150),
+        p_d=numbers.uniform(1, 6),
+        k2=10 ** numbers.uniform(3, 5),
+        delta=numbers.uniform(0.5e-3, 5e-3),
+        resistance=numbers.choice(["coulomb-stribeck", "coulomb"]),
+    )
+    choice = numbers.randrange(3)
+    protocol = {"max_cycles": 300, "exponent_cycles": 256, "points": numbers.randrange(4)}
+    if choice == 0:
+        return capsulemap.sweep(
+            capsule,
+            {"omega": Axis(20, numbers.uniform(30, 160), numbers.randrange(2, 9))},
+            inherit="omega",
+            directions=numbers.sample(["upward", "downward", "afresh"], 2),
+            protocol=protocol,
+        )
+    if choice == 1:
+        axes = {
+            "p_d": [numbers.uniform(1, 6) for _ in range(3)],
+            "start_phase": sorted(numbers.uniform(0, 6) for _ in range(2)),
+        }
+        return capsulemap.sweep(capsule, axes, protocol=protocol)
+    axes = {"start_r": (-3e-3, 3e-3), "start_y1": (-0.3, 0.3)}
+    draws = Draws(numbers.randrange(1, 20), seed=numbers.randrange(1000))
+    return capsulemap.basin(capsule, axes, draws=draws, protocol=protocol)
+
+
+if __name__ == "__main__":
+    unittest.main()
