@@ -71,14 +71,8 @@ impl History for Course<'_> {
         let names: Vec<Signal> = signals.iter().map(|it| it.0).collect();
         let found = sampled(&motion, times, &names, &directions(self, free), TOLERANCE).ok()?;
         for (i, (_, recorded)) in signals.iter().enumerate() {
-            let unit = 1.0 / self.scatters[i].unit;
-            for (k, recorded) in recorded.iter().enumerate() {
-                let slopes = match found.slopes.get(i) {
-                    Some(of_times) => of_times[k].iter().map(|it| it * unit).collect(),
-                    None => Vec::new(),
-                };
-                all.push((found.values[i][k] - recorded) * unit, slopes);
-            }
+            let (scatter, slopes) = (&self.scatters[i], &found.slopes[i]);
+            scatter.add_residuals(&mut all, recorded, &found.values[i], slopes);
         }
         // What the record of the drive says of its phase is one more datum.
         if let Some(place) = self.unknown.iter().position(|it| it.0 == Direction::StartPhase) {

@@ -25,6 +25,23 @@ pub struct Scatter {
     pub least: f64,
 }
 
+impl Scatter {
+    /// Puts the residuals of its signal behind the others: what was `found` less what was recorded, and the slopes of what was
+    /// found by time and unknown.
+    pub(super) fn add_residuals(
+        &self,
+        all: &mut Residuals,
+        recorded: &[f64],
+        found: &[f64],
+        slopes: &[Vec<f64>],
+    ) {
+        let unit = 1.0 / self.unit;
+        for ((recorded, found), slopes) in recorded.iter().zip(found).zip(slopes) {
+            all.push((found - recorded) * unit, slopes.iter().map(|it| it * unit).collect());
+        }
+    }
+}
+
 /// A recorded history with what is unknown of the start of its motion.
 pub trait History: Sync {
     /// Times since the first sample [s], the first of which is zero.

@@ -170,11 +170,8 @@ impl History for TextCourse<'_> {
         let found = sampled(&motion, times, &columns, &directions, TOLERANCE).ok()?;
         let mut all = Residuals { values: Vec::new(), slopes: Vec::new() };
         for (i, (_, recorded)) in states.iter().enumerate() {
-            let unit = 1.0 / self.scatters[i].unit;
-            for (k, recorded) in recorded.iter().enumerate() {
-                let slopes = found.slopes[i][k].iter().map(|it| it * unit).collect();
-                all.push((found.values[i][k] - recorded) * unit, slopes);
-            }
+            let (scatter, slopes) = (&self.scatters[i], &found.slopes[i]);
+            scatter.add_residuals(&mut all, recorded, &found.values[i], slopes);
         }
         Some(all)
     }

@@ -5,6 +5,7 @@
 pub mod quantity;
 pub mod description;
 pub mod motion;
+pub mod samples;
 pub mod face;
 pub mod capsule;
 pub mod model;

@@ -13,7 +13,7 @@ pub enum Breakdown {
     NotFinite,
     /// An autonomous system does not come back to its section in time.
     NoReturn,
-    /// The motion leaves every bound ([`Switched::runs_away`]).
+    /// The motion leaves every bound ([`Switched::runs_away`](super::Switched::runs_away)).
     RunsAway,
     /// The computation is to end.
     Stopped,

@@ -1,20 +1,19 @@
 //! A simulated motion at given times, as sensors would see it, with exact derivatives in parameters and in the start.
 
+use std::marker::PhantomData;
+
 use crate::capsule::{
     AsPrinted, CapsuleParameters as _, DriveSeries, Filippov, Form, General, Jet, Locomotion,
     OverFolds, Parameter, Parameters, Reading, State,
 };
 use crate::motion::reduced;
 use crate::quantity::Dimension;
+pub use crate::samples::Samples;
+use crate::samples::{Sampled, samples};
 use capsulemap_engine::flow::{
     Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, cycle,
 };
-use capsulemap_engine::lane::{Dual, Lane, series};
-
-/// Directions that are differentiated at a time.
-const AT_ONCE: usize = 4;
-/// A number with derivatives.
-type Number = Dual<f64, AT_ONCE>;
+use capsulemap_engine::lane::{Lane, series};
 
 /// What a sensor sees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -146,15 +145,6 @@ impl Started {
     }
 }
 
-/// Signals at given times, with their slopes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Samples {
-    /// The values, by signal and time (SI).
-    pub values: Vec<Vec<f64>>,
-    /// Their derivatives, by signal, time and direction (SI).
-    pub slopes: Vec<Vec<Vec<f64>>>,
-}
-
 /// The `signals` of a motion at `times` since its start [s], which increase from zero or later, and their derivatives in
 /// `directions`.
 ///
@@ -194,6 +184,15 @@ pub fn sampled(
     of_form(&parts, times, signals, directions, tolerance)
 }
 
+/// A motion with what is read of it, and how its equations are written.
+struct AsForm<'a, R, const D: usize> {
+    motion: &'a Started,
+    times: &'a [f64],
+    signals: &'a [Signal],
+    tolerance: f64,
+    form: PhantomData<R>,
+}
+
 fn sampled_as<R: Reading<D>, const D: usize>(
     motion: &Started,
     times: &[f64],
@@ -201,81 +200,48 @@ fn sampled_as<R: Reading<D>, const D: usize>(
     directions: &[Direction],
     tolerance: f64,
 ) -> Result<Samples, Reason> {
-    if directions.is_empty() {
-        let values =
-            followed::<R, f64, D>(motion, |it| motion.value(it), times, signals, tolerance)?;
-        return Ok(Samples { values, slopes: Vec::new() });
+    let form = PhantomData::<R>;
+    samples(&AsForm { motion, times, signals, tolerance, form }, directions)
+}
+
+impl<R: Reading<D>, const D: usize> Sampled<Direction> for AsForm<'_, R, D> {
+    fn value(&self, direction: Direction) -> f64 {
+        self.motion.value(direction)
     }
-    let mut samples =
-        Samples { values: Vec::new(), slopes: vec![vec![Vec::new(); times.len()]; signals.len()] };
-    for some in directions.chunks(AT_ONCE) {
-        let values = followed::<R, Number, D>(
-            motion,
-            |it| seeded(motion, it, some),
+
+    fn followed<L: Lane>(&self, of: impl Fn(Direction) -> L) -> Result<Vec<Vec<L>>, Reason> {
+        let AsForm { motion, times, signals, tolerance, .. } = *self;
+        let shape = motion.parameters.shape();
+        let system = R::capsule::<L>(|it| of(Direction::Parameter(it)), shape, 0.0);
+        let start = State {
+            r: of(Direction::StartR),
+            y1: of(Direction::StartY1),
+            x2: of(Direction::StartX2),
+            y2: of(Direction::StartY2),
+            place: L::splat(motion.start.place),
+        };
+        // The phase within a turn, with the derivative of the phase itself.
+        let turns = L::splat(reduced(motion.phase) - motion.phase);
+        let omega = shape.frequency(|it| of(Direction::Parameter(it)));
+        let begins = (of(Direction::StartPhase) + turns) / omega;
+        let mut sampler = Sampler {
             times,
             signals,
-            tolerance,
-        )?;
-        for (slopes, values) in samples.slopes.iter_mut().zip(&values) {
-            for (slopes, value) in slopes.iter_mut().zip(values) {
-                slopes.extend(&value.gradient[..some.len()]);
-            }
+            began: -begins,
+            values: vec![Vec::with_capacity(times.len()); signals.len()],
+            next: 0,
+        };
+        let mut course = Motion::new(&system, begins, start);
+        let mut step = Step::default();
+        while sampler.next < times.len() {
+            let limits = (STEPS_PER_CYCLE, tolerance);
+            let duration = cycle(&system, &mut course, &mut step, limits, |step| {
+                sampler.see::<R, D>(&system, step);
+            })?;
+            sampler.began = sampler.began + duration;
         }
-        if samples.values.is_empty() {
-            let plain = values.iter().map(|of| of.iter().map(|number| number.value).collect());
-            samples.values = plain.collect();
-        }
+        Ok(sampler.values)
     }
-    Ok(samples)
-}
-
-/// The value of a motion in a direction, with the derivatives in some directions.
-fn seeded(motion: &Started, direction: Direction, some: &[Direction]) -> Number {
-    let value = motion.value(direction);
-    match some.iter().position(|it| *it == direction) {
-        Some(place) => Dual::variable(value, place),
-        None => Dual::constant(value),
-    }
-}
-
-/// The signals in numbers of one kind, by signal and time.
-fn followed<R: Reading<D>, L: Lane, const D: usize>(
-    motion: &Started,
-    of: impl Fn(Direction) -> L,
-    times: &[f64],
-    signals: &[Signal],
-    tolerance: f64,
-) -> Result<Vec<Vec<L>>, Reason> {
-    let shape = motion.parameters.shape();
-    let system = R::capsule::<L>(|it| of(Direction::Parameter(it)), shape, 0.0);
-    let start = State {
-        r: of(Direction::StartR),
-        y1: of(Direction::StartY1),
-        x2: of(Direction::StartX2),
-        y2: of(Direction::StartY2),
-        place: L::splat(motion.start.place),
-    };
-    // The phase within a turn, with the derivative of the phase itself.
-    let turns = L::splat(reduced(motion.phase) - motion.phase);
-    let omega = shape.frequency(|it| of(Direction::Parameter(it)));
-    let begins = (of(Direction::StartPhase) + turns) / omega;
-    let mut sampler = Sampler {
-        times,
-        signals,
-        began: -begins,
-        values: vec![Vec::with_capacity(times.len()); signals.len()],
-        next: 0,
-    };
-    let mut course = Motion::new(&system, begins, start);
-    let mut step = Step::default();
-    while sampler.next < times.len() {
-        let limits = (STEPS_PER_CYCLE, tolerance);
-        let duration = cycle(&system, &mut course, &mut step, limits, |step| {
-            sampler.see::<R, D>(&system, step);
-        })?;
-        sampler.began = sampler.began + duration;
-    }
-    Ok(sampler.values)
 }
 
 struct Sampler<'a, L> {

@@ -3,19 +3,16 @@
 use std::f64::consts::TAU;
 
 use capsulemap_engine::flow::{Breakdown, Motion, Reason, STEPS_PER_CYCLE, Step, Switched};
-use capsulemap_engine::lane::{Dual, Lane, Mask, series};
+use capsulemap_engine::lane::{Lane, Mask, series};
 use capsulemap_models::description::{Parameter, Parameters, State};
+pub use capsulemap_models::samples::Samples;
+use capsulemap_models::samples::{Sampled, samples};
 
 use crate::text::content::Section;
 use crate::text::described::program_of;
 use crate::text::model::{FEW, MANY, PLACES, PLACES_OF_FEW};
 use crate::text::oscillator::Oscillator;
 use crate::text::program::Program;
-
-/// Directions that are differentiated at a time.
-const AT_ONCE: usize = 4;
-/// A number with derivatives.
-type Number = Dual<f64, AT_ONCE>;
 
 /// What a motion can be differentiated in.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,15 +69,6 @@ impl Started {
     }
 }
 
-/// States at given times, with their slopes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Samples {
-    /// The values, by column and time.
-    pub values: Vec<Vec<f64>>,
-    /// Their derivatives, by column, time and direction; empty without directions.
-    pub slopes: Vec<Vec<Vec<f64>>>,
-}
-
 /// The states at some places, the `columns`, of a motion at `times` since its start [s], which increase from zero or later, and their
 /// derivatives in `directions`.
 ///
@@ -123,6 +111,14 @@ pub fn sampled(
     of_kind(program, motion, Asked { times, columns }, directions, tolerance)
 }
 
+/// A motion with what is read of it, and its program.
+struct OfProgram<'a, const D: usize, const N: usize, const AUTONOMOUS: bool> {
+    program: &'static Program,
+    motion: &'a Started,
+    asked: Asked<'a>,
+    tolerance: f64,
+}
+
 fn sampled_as<const D: usize, const N: usize, const AUTONOMOUS: bool>(
     program: &'static Program,
     motion: &Started,
@@ -130,42 +126,19 @@ fn sampled_as<const D: usize, const N: usize, const AUTONOMOUS: bool>(
     directions: &[Direction],
     tolerance: f64,
 ) -> Result<Samples, Reason> {
-    if directions.is_empty() {
-        let plain = |it| motion.value(it);
-        let values =
-            Sampler::new(asked).followed::<D, N, AUTONOMOUS>(program, motion, plain, tolerance)?;
-        return Ok(Samples { values, slopes: Vec::new() });
-    }
-    let mut samples = Samples {
-        values: Vec::new(),
-        slopes: vec![vec![Vec::new(); asked.times.len()]; asked.columns.len()],
-    };
-    for some in directions.chunks(AT_ONCE) {
-        let values = Sampler::new(asked).followed::<D, N, AUTONOMOUS>(
-            program,
-            motion,
-            |it| seeded(motion, it, some),
-            tolerance,
-        )?;
-        for (slopes, values) in samples.slopes.iter_mut().zip(&values) {
-            for (slopes, value) in slopes.iter_mut().zip(values) {
-                slopes.extend(&value.gradient[..some.len()]);
-            }
-        }
-        if samples.values.is_empty() {
-            let plain = values.iter().map(|of| of.iter().map(|number| number.value).collect());
-            samples.values = plain.collect();
-        }
-    }
-    Ok(samples)
+    samples(&OfProgram::<D, N, AUTONOMOUS> { program, motion, asked, tolerance }, directions)
 }
 
-/// The value of a motion in a direction, with the derivatives in some directions.
-fn seeded(motion: &Started, direction: Direction, some: &[Direction]) -> Number {
-    let value = motion.value(direction);
-    match some.iter().position(|it| *it == direction) {
-        Some(place) => Dual::variable(value, place),
-        None => Dual::constant(value),
+impl<const D: usize, const N: usize, const AUTONOMOUS: bool> Sampled<Direction>
+    for OfProgram<'_, D, N, AUTONOMOUS>
+{
+    fn value(&self, direction: Direction) -> f64 {
+        self.motion.value(direction)
+    }
+
+    fn followed<L: Lane>(&self, of: impl Fn(Direction) -> L) -> Result<Vec<Vec<L>>, Reason> {
+        let sampler = Sampler::new(self.asked);
+        sampler.followed::<D, N, AUTONOMOUS>(self.program, self.motion, of, self.tolerance)
     }
 }
 
