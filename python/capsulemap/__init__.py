@@ -6,33 +6,55 @@ coordinates and attributes of the program's HDF5 files, where ``attrs["units"]``
 
 from ._axis import Axis, Draws
 from ._capsulemap import __version__, set_threads
-from ._errors import Fault, MachineError, PartialResultWarning, StudyError
+from ._errors import Fault, MachineError, PartialResultWarning, StudyError, StudyWarning
+from ._experiment import Comparison, Fit, Identified, compare, fit, identify
+from ._explore import Page, explore
+from ._figure import Figure, figure
 from ._job import Job, Status
 from ._orbit import Orbit
+from ._progress import set_progress
 from ._results import open
-from ._runs import basin, branch, orbit, simulate, sweep
+from ._runs import attractors, basin, branch, orbit, simulate, sweep
+from ._saved import save
 from ._study import Study
 from ._systems import Capsule, Oscillator
+from ._tradeoff import TradeOff, tradeoff
 
 __all__ = [
     "Axis",
     "Capsule",
+    "Comparison",
     "Draws",
     "Fault",
+    "Figure",
+    "Fit",
+    "Identified",
     "Job",
     "MachineError",
     "Orbit",
     "Oscillator",
+    "Page",
     "PartialResultWarning",
     "Status",
     "Study",
     "StudyError",
+    "StudyWarning",
+    "TradeOff",
     "__version__",
+    "attractors",
     "basin",
     "branch",
+    "compare",
+    "explore",
+    "figure",
+    "fit",
+    "identify",
     "open",
     "orbit",
+    "save",
+    "set_progress",
     "set_threads",
     "simulate",
     "sweep",
+    "tradeoff",
 ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from . import _text
 from ._text import Quantity
@@ -63,7 +64,7 @@ def tables(axes: Mapping[str, object], units: Mapping[str, str | None], drawn: b
     return written
 
 
-def _values(axis: object) -> list[object]:
+def _values(axis: Any) -> list[object]:
     if hasattr(axis, "tolist") and not hasattr(axis, "magnitude"):
         values = axis.tolist()
         return values if isinstance(values, list) else [values]

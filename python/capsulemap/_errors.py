@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import sys
+import warnings
 from typing import NamedTuple
 
 
@@ -39,9 +42,22 @@ class MachineError(RuntimeError):
     """A fault of the machine: its disk, its memory, its threads."""
 
 
+class StudyWarning(UserWarning):
+    """What was taken where a study leaves it open, or what of it has no effect."""
+
+
 class PartialResultWarning(UserWarning):
     """A computation was interrupted, and what it had done by then is returned."""
 
 
 def _study_error(message: str, faults: list[tuple[int | None, str, str]]) -> StudyError:
     return StudyError(message, [Fault(*fault) for fault in faults])
+
+
+def warn(told: str, category: type[Warning]) -> None:
+    """Warns where the package was called."""
+    here = os.path.dirname(os.path.abspath(__file__)) + os.sep
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and os.path.abspath(frame.f_code.co_filename).startswith(here):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(told, category, stacklevel=level)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _capsulemap, _results
-from ._errors import PartialResultWarning
+from ._errors import PartialResultWarning, StudyError, warn
+from ._progress import Progress
 
 if TYPE_CHECKING:
     import xarray
@@ -58,11 +58,15 @@ class Job:
     def partial(self) -> xarray.Dataset:
         """What is done by now: cases that are not have the outcome "missing", and NaN or 0 in place of numbers.
 
-        Attractors, and what is inferred where boundaries alone are computed, come at the end, and are not in it before.
+        Attractors, and what is inferred where boundaries alone are computed, come at the end, and are not in it before; of a run that
+        is kept in a file it is what its blocks hold. Raises StudyError where such a run has no block yet.
         """
         if not self._has_result() and not self._job.is_running():
             self._take()
-        return _results.partial(self._job.partial()) if self._dataset is None else self._dataset
+        if self._dataset is not None:
+            return self._dataset
+        done = self._job.partial()
+        return _results.dataset(done) if isinstance(done, dict) else _results.partial(done)
 
     def cancel(self) -> xarray.Dataset:
         """Ends the computation and returns what is done."""
@@ -93,14 +97,29 @@ class Job:
 
 
 def waited(job: Job, *, has_cases: bool) -> xarray.Dataset:
-    """The results of a job; after Ctrl-C what is done, with a warning, where that is something."""
+    """The results of a job, whose progress is shown; after Ctrl-C what is done, with a warning, where that is something."""
+    progress = Progress()
     try:
+        while not job._job.wait(progress.interval):
+            progress.show(*job._job.progress())
+        progress.end()
         return job.wait()
     except KeyboardInterrupt:
         job._job.cancel()
+        progress.end()
         if not has_cases:
             raise
-        done, cases = job._job.progress()
-        told = f"interrupted: {done} of {cases} cases are done, the others have the outcome \"missing\""
-        warnings.warn(told, PartialResultWarning, stacklevel=4)
-        return job.partial()
+        return _interrupted(job)
+
+
+def _interrupted(job: Job) -> xarray.Dataset:
+    """What is done of a job that was interrupted."""
+    done, cases = job._job.progress()
+    try:
+        dataset = job.partial()
+    except StudyError:
+        # No block of a run that is kept is whole yet.
+        raise KeyboardInterrupt from None
+    told = f"interrupted: {done} of {cases} cases are done, the others have the outcome \"missing\""
+    warn(told, PartialResultWarning)
+    return dataset

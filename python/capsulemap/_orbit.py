@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Orbit:
     """What a motion settles to."""
 
@@ -41,6 +41,16 @@ class Orbit:
         Raises StudyError where no histories are kept of the system, as without a drive.
         """
         return self._history(cycles, samples_per_cycle, start)
+
+    def __repr__(self) -> str:
+        """The outcome, and the outputs one by one."""
+        period = f", period {self.period}" if self.period else ""
+        told = [f"<Orbit: {self.outcome}{period}, certificate {self.certificate}>"]
+        told += [f"  failure: {self.failure}"] if self.failure else []
+        for name, value in self.outputs.items():
+            unit = "" if self.units[name] == "1" else f" {self.units[name]}"
+            told.append(f"  {name} = {value:.6g}{unit}")
+        return "\n".join(told)
 
 
 def orbit_of(

@@ -68,7 +68,7 @@ def _numbers(done: _capsulemap.Partial, name: str, shape: tuple[int, ...], kind:
         def __init__(self) -> None:
             self.shape = shape
             self.dtype = numpy.dtype(kind)
-            self.whole: numpy.ndarray | None = None
+            self.whole: Any = None
 
         def __getitem__(self, key: indexing.ExplicitIndexer) -> Any:
             support = indexing.IndexingSupport.BASIC

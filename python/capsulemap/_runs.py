@@ -10,6 +10,7 @@ from ._axis import Draws
 from ._built import Built
 from ._job import Job
 from ._orbit import Orbit, orbit_of
+from ._study import Keep, Kept
 from ._systems import _Parametric
 from ._text import Quantity
 
@@ -34,6 +35,7 @@ def simulate(
     why the motion ends early, if it does. Raises StudyError.
     """
     study = Built(system, start=start, protocol=protocol).study()
+    _study.tell(study)
     if isinstance(cycles, bool) or not isinstance(cycles, int) or cycles < 0:
         raise ValueError(f"cycles: expected a whole number, 0 or more, found {cycles!r}")
     return _results.dataset(study.simulate(cycles))
@@ -52,7 +54,9 @@ def orbit(
         kept = [name for name in whole.data_vars if "history_time" in whole[name].dims]
         return whole[kept]
 
-    arrays = _results.arrays(_computed(built.study()))
+    study = built.study()
+    _study.tell(study)
+    arrays = _results.arrays(_computed(study))
     return orbit_of(arrays, system._description()["outputs"], history)
 
 
@@ -82,6 +86,8 @@ def sweep(
     protocol: Mapping[str, object] | None = None,
     history: Mapping[str, object] | None = None,
     title: str = "",
+    keep: Keep = None,
+    overwrite: bool = False,
     blocking: Literal[True] = True,
 ) -> xarray.Dataset: ...
 
@@ -100,6 +106,8 @@ def sweep(
     protocol: Mapping[str, object] | None = None,
     history: Mapping[str, object] | None = None,
     title: str = "",
+    keep: Keep = None,
+    overwrite: bool = False,
     blocking: Literal[False],
 ) -> Job: ...
 
@@ -117,6 +125,8 @@ def sweep(
     protocol: Mapping[str, object] | None = None,
     history: Mapping[str, object] | None = None,
     title: str = "",
+    keep: Keep = None,
+    overwrite: bool = False,
     blocking: bool = True,
 ) -> xarray.Dataset | Job:
     """What every case of a grid settles to, or of draws.
@@ -125,7 +135,7 @@ def sweep(
     array or list of numbers in SI units or texts with units, or an Axis. With ``draws`` each axis is an Axis or a pair, the range.
     With ``inherit`` each case starts where its neighbour along that axis has settled, in each of the ``directions`` ("upward",
     "downward"). ``refine`` maps outputs to the most by which neighbours may differ: cases are computed only where they do.
-    ``protocol`` and ``history`` have the keys of these tables of a study file.
+    ``protocol`` and ``history`` have the keys of these tables of a study file. ``keep`` and ``overwrite`` are as those of ``Study.run``.
 
     Returns the dataset that the program's file would hold, or with ``blocking=False`` a Job. Ctrl-C returns what is done, with a
     PartialResultWarning. Raises StudyError with all faults before anything is computed, and MachineError.
@@ -143,7 +153,8 @@ def sweep(
         history=history,
         title=title,
     )
-    return _study.run(built.study(), cases=True, branches=False, blocking=blocking)
+    kept = Kept(keep, overwrite)
+    return _study.run(built.study(), cases=True, branches=False, kept=kept, blocking=blocking)
 
 
 @overload
@@ -158,6 +169,8 @@ def basin(
     early_decision: bool = True,
     protocol: Mapping[str, object] | None = None,
     title: str = "",
+    keep: Keep = None,
+    overwrite: bool = False,
     blocking: Literal[True] = True,
 ) -> xarray.Dataset: ...
 
@@ -174,6 +187,8 @@ def basin(
     early_decision: bool = True,
     protocol: Mapping[str, object] | None = None,
     title: str = "",
+    keep: Keep = None,
+    overwrite: bool = False,
     blocking: Literal[False],
 ) -> Job: ...
 
@@ -189,6 +204,8 @@ def basin(
     early_decision: bool = True,
     protocol: Mapping[str, object] | None = None,
     title: str = "",
+    keep: Keep = None,
+    overwrite: bool = False,
     blocking: bool = True,
 ) -> xarray.Dataset | Job:
     """Which start leads to which motion: a sweep over starts alone.
@@ -210,7 +227,27 @@ def basin(
         protocol=protocol,
         title=title,
     )
-    return _study.run(built.study(), cases=True, branches=False, blocking=blocking)
+    kept = Kept(keep, overwrite)
+    return _study.run(built.study(), cases=True, branches=False, kept=kept, blocking=blocking)
+
+
+def attractors(
+    system: _Parametric,
+    axes: Mapping[str, object],
+    *,
+    outputs: Sequence[str] | None = None,
+    start: Start | None = None,
+    draws: Draws | None = None,
+    protocol: Mapping[str, object] | None = None,
+) -> xarray.Dataset:
+    """The motions on which starts end, without what is known of each start: the part of a ``basin`` over ``attractor_index``.
+
+    The starts are those of ``axes``, as of a basin, or drawn from their ranges. Each motion has its outcome, period, multipliers, section points,
+    outputs (SI) and share of the starts. Raises StudyError and MachineError.
+    """
+    whole = basin(system, axes, outputs=outputs, start=start, draws=draws, protocol=protocol)
+    of_starts = {"draw", *axes} & set(map(str, whole.sizes))
+    return whole.drop_dims(list(of_starts))
 
 
 def branch(

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Literal, overload
+from typing import TYPE_CHECKING, Literal, NamedTuple, Union, overload
 
 from . import _capsulemap
+from ._errors import StudyWarning, warn
 from ._job import Job, waited
 from ._systems import is_path
 
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
 
 NAME = "the study"
 """What stands for the file of a study that has none, in messages."""
+
+Keep = Union[str, "os.PathLike[str]", None]
+"""The path of the file of results in which a run is kept; None for one in memory."""
 
 
 class Study:
@@ -43,24 +47,36 @@ class Study:
 
     @property
     def remarks(self) -> list[str]:
-        """What was taken where the study leaves it open, and what has no effect, in sentences."""
+        """What is taken where the study leaves it open, and what has no effect, in sentences; to run it warns of them."""
         return self._study.remarks
 
     @overload
-    def run(self, *, blocking: Literal[True] = True) -> xarray.Dataset: ...
+    def run(
+        self, *, keep: Keep = None, overwrite: bool = False, blocking: Literal[True] = True
+    ) -> xarray.Dataset: ...
 
     @overload
-    def run(self, *, blocking: Literal[False]) -> Job: ...
+    def run(
+        self, *, keep: Keep = None, overwrite: bool = False, blocking: Literal[False]
+    ) -> Job: ...
 
     @overload
-    def run(self, *, blocking: bool) -> xarray.Dataset | Job: ...
+    def run(
+        self, *, keep: Keep = None, overwrite: bool = False, blocking: bool
+    ) -> xarray.Dataset | Job: ...
 
-    def run(self, *, blocking: bool = True) -> xarray.Dataset | Job:
-        """Computes its cases, and its branches where it has some, in memory: the dataset that its file would hold.
+    def run(
+        self, *, keep: Keep = None, overwrite: bool = False, blocking: bool = True
+    ) -> xarray.Dataset | Job:
+        """Computes its cases, and its branches where it has some: the dataset that its file holds.
 
-        Ctrl-C returns what is done, with a PartialResultWarning. With ``blocking=False`` it is computed in the background.
+        With ``keep`` the results go to the file at that path ("NAME.h5") as they come: what a run that was interrupted has done stays
+        beside it, and the same call resumes it; ``overwrite`` replaces the results of another study there. Ctrl-C returns what is done,
+        with a PartialResultWarning. With ``blocking=False`` it is computed in the background.
         """
-        return run(self._study, cases=True, branches=self._study.branches > 0, blocking=blocking)
+        branches = self._study.branches > 0
+        kept = Kept(keep, overwrite)
+        return run(self._study, cases=True, branches=branches, kept=kept, blocking=blocking)
 
     def __repr__(self) -> str:
         sizes = ", ".join(f"{name}: {length}" for name, length in self.sizes.items())
@@ -77,9 +93,26 @@ class Study:
         return (Study.from_toml, (self.to_toml() + "\n",))
 
 
+class Kept(NamedTuple):
+    """Where results are kept as they come."""
+
+    path: Keep = None
+    """The file; None where they are in memory alone."""
+    overwrite: bool = False
+    """Whether results of another study there are replaced."""
+
+
 def run(
-    study: _capsulemap.Study, *, cases: bool, branches: bool, blocking: bool
+    study: _capsulemap.Study, *, cases: bool, branches: bool, blocking: bool, kept: Kept = Kept()
 ) -> xarray.Dataset | Job:
     """Computes what is wanted of a study."""
-    job = Job(study.begin(cases, branches))
+    tell(study)
+    path = None if kept.path is None else os.path.abspath(kept.path)
+    job = Job(study.begin(cases, branches, path, kept.overwrite))
     return waited(job, has_cases=cases) if blocking else job
+
+
+def tell(study: _capsulemap.Study) -> None:
+    """Warns of what was taken where a study leaves it open, and of what has no effect."""
+    for remark in study.remarks:
+        warn(remark, StudyWarning)

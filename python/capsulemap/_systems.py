@@ -5,23 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from . import _capsulemap, _text
 from ._text import Quantity
 
 Self = TypeVar("Self", bound="_Parametric")
-
-
-class System(Protocol):
-    """A system with values of its parameters."""
-
-    def to_toml(self) -> str:
-        """The system as the text of a study file."""
-
-    @property
-    def parameters(self) -> Mapping[str, Quantity]:
-        """The values that are given, by name."""
 
 
 class _Parametric:

@@ -37,6 +37,16 @@ def quantity(key: str, value: Quantity, unit: str | None) -> str:
     return number(value) if unit is None else quoted(f"{number(value)} {unit}")
 
 
+def words(key: str, value: Quantity, unit: str | None = None) -> str:
+    """A quantity as an option of the command line has it: a plain number is in SI units, or gets this unit."""
+    if isinstance(value, str):
+        return value
+    if hasattr(value, "magnitude") and hasattr(value, "units"):
+        return str(json.loads(_foreign(value, None)))
+    written = quantity(key, value, None)
+    return written if unit is None else f"{written} {unit}"
+
+
 def quantities(key: str, values: Iterable[Quantity], unit: str | None) -> str:
     """A list of quantities."""
     return "[" + ", ".join(quantity(key, value, unit) for value in values) + "]"

@@ -5,6 +5,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
+use crate::flow::stop;
 use crate::run::{Record, run_blocks};
 use crate::store::{BlockFolder, Blocks, StoreError, Unusable};
 use crate::study::{Study, spread};
@@ -86,6 +87,7 @@ struct Keeping<'a> {
 impl Keeping<'_> {
     /// Reports a case that is done.
     fn note(&self, block: usize, record: &Record) -> ControlFlow<()> {
+        go_on()?;
         // How many cases a tile needs is known only at its end.
         if self.study.refine.is_some() {
             return self.reports.proceed();
@@ -96,6 +98,7 @@ impl Keeping<'_> {
 
     /// Keeps a block.
     fn keep(&self, block: usize, records: &[Record]) -> ControlFlow<()> {
+        go_on()?;
         match self.folder.keep(self.study, block, records) {
             Ok(summary) => {
                 self.done.fetch_add(1, Ordering::Relaxed);
@@ -107,6 +110,11 @@ impl Keeping<'_> {
             }
         }
     }
+}
+
+/// Ends where the computation is to stop, as what is computed from then on has no meaning.
+fn go_on() -> ControlFlow<()> {
+    if stop::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
 /// Reports the blocks that are damaged or foreign; fails if one cannot be read.

@@ -99,7 +99,7 @@ impl Compare {
             let (case, protocol) = asked?;
             return self.compare_text(&case, &protocol);
         }
-        let recording = files::motion(&self.recording)?;
+        let recording = files::motion(&self.recording, default_model())?;
         let (case, protocol) = asked?;
         let comparison = compare(&recording, &case, &protocol)
             .map_err(|why| Failure::of_file(&self.recording, why))?;
@@ -133,7 +133,7 @@ impl Compare {
             let why = "--explain: is for the capsule; `capsulemap fit` finds parameters of an oscillator that is given as text";
             return Err(Failure::request(why));
         }
-        let recording = files::states(&self.recording, case.parameters.model())?;
+        let recording = files::motion(&self.recording, case.parameters.model())?;
         let of_file = |why| Failure::of_file(&self.recording, why);
         let record = TextRecord::new(&recording, case).map_err(of_file)?;
         let doubts = record.doubts(&recording);

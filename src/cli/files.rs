@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::failure::Failure;
 use crate::description::Description;
-use crate::experiment::{Column, Presence, Recording, Signal};
+use crate::experiment::{Column, Recording, columns_of_motion};
 use crate::quantity::printable::printable;
 use crate::quantity::{Dimension, parse_quantity};
 use crate::store::{self, Pipes};
@@ -42,29 +42,9 @@ pub fn recording_in(
     Recording::read(&name, text, known, least).map_err(Failure::request)
 }
 
-/// The recording of a motion: times, and any of the signals.
-pub fn motion(path: &Path) -> Result<Recording, Failure> {
-    let times = Column { presence: Presence::Required, ..optional_column("t", Dimension::Time) };
-    let signals = Signal::ALL.map(|it| optional_column(it.name(), it.dimension()));
-    let current = optional_column("current", Dimension::Current);
-    let known: Vec<Column> = [times, current].into_iter().chain(signals).collect();
-    recording(path, &known, LEAST_ROWS)
-}
-
-/// The recording of a motion of an oscillator given as text: times, and any of its states.
-///
-/// Times are in s, or plain numbers where all states are.
-pub fn states(path: &Path, model: &'static Description) -> Result<Recording, Failure> {
-    let are_numbers = model.coordinates.iter().all(|it| it.start.dimension == Dimension::Number);
-    let of_time = if are_numbers { Dimension::Number } else { Dimension::Time };
-    let times = Column { presence: Presence::Required, ..optional_column("t", of_time) };
-    let states = model.coordinates.iter().map(|it| optional_column(it.name, it.start.dimension));
-    let known: Vec<Column> = [times].into_iter().chain(states).collect();
-    recording(path, &known, LEAST_ROWS)
-}
-
-fn optional_column(name: &'static str, dimension: Dimension) -> Column {
-    Column { name, dimension, presence: Presence::Optional }
+/// The recording of a motion, with the columns that one of this model may have.
+pub fn motion(path: &Path, model: &'static Description) -> Result<Recording, Failure> {
+    recording(path, &columns_of_motion(model), LEAST_ROWS)
 }
 
 /// Whether standard output is asked for in place of a file.

@@ -174,7 +174,7 @@ impl Fit {
                 );
                 return Err(Failure::of_file(study, why));
             }
-            let recording = files::states(path, model)?;
+            let recording = files::motion(path, model)?;
             let of_file = |why| Failure::of_file(path, why);
             let record = TextRecord::new(&recording, &case).map_err(of_file)?;
             let doubts = record.doubts(&recording).into_iter();
@@ -216,7 +216,7 @@ impl Fit {
         index: usize,
     ) -> Result<(Recorded, Vec<String>), Failure> {
         let path = &self.recordings[index];
-        let recording = files::motion(path)?;
+        let recording = files::motion(path, default_model())?;
         let case = self.case_of(cases, index)?;
         let (times, signals) = signals_of(&recording).map_err(|why| Failure::of_file(path, why))?;
         let period = case.parameters.drive_period();

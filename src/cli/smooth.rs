@@ -10,6 +10,7 @@ use super::files;
 use super::target::Target;
 use crate::experiment::estimate::significant;
 use crate::experiment::{Recording, Signal, Window, smoothed};
+use crate::of::default_model;
 use crate::quantity::Dimension;
 use crate::quantity::printable::printable;
 
@@ -52,7 +53,7 @@ impl Smooth {
         let length = files::quantity("--window", &self.window, Dimension::Time);
         let length = length.map_err(Failure::request)?;
         let target = Target::of(&self.output, |path| files::check_free(path, self.overwrite))?;
-        let recording = files::motion(&self.recording)?;
+        let recording = files::motion(&self.recording, default_model())?;
         let sampling = recording.sampling();
         let window = self.window(length, sampling.interval)?;
         let names = Signal::ALL.map(|it| (it.name(), it.dimension()));

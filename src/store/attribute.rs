@@ -5,8 +5,8 @@ use super::catalogue::{
 };
 use super::element::Element;
 use super::names::{
-    CONVENTIONS, CONVENTIONS_FOLLOWED, FLAG_MEANINGS, FLAG_VALUES, FORMAT, FORMAT_WRITTEN,
-    LONG_NAME, OF_PROTOCOL, UNITS,
+    CONVENTIONS, CONVENTIONS_FOLLOWED, COORDINATES, FLAG_MEANINGS, FLAG_VALUES, FORMAT,
+    FORMAT_WRITTEN, LONG_NAME, OF_PROTOCOL, UNITS,
 };
 use super::{Dataset, Variable};
 
@@ -47,6 +47,11 @@ pub fn attributes_of_set(dataset: &Dataset) -> Vec<(&str, Attribute)> {
     let always = always.map(|(name, words)| (name, Attribute::Words(words.to_owned())));
     let own = dataset.attributes.iter().map(|(name, words)| (name.as_str(), number(name, words)));
     always.into_iter().chain(own).collect()
+}
+
+/// Whether an attribute is one that every file has of its format, and none of the dataset in it.
+pub fn is_of_format(name: &str) -> bool {
+    [CONVENTIONS, FORMAT, COORDINATES].contains(&name)
 }
 
 /// An attribute of the protocol as a number where it is one, any other as it is.

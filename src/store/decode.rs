@@ -9,6 +9,7 @@ use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset as Array, File, Hyperslab, SliceOrIndex};
 use ndarray::{ArrayD, IxDyn};
 
+use super::attribute::is_of_format;
 use super::branches::is_of_branches;
 use super::catalogue::OUTCOME;
 use super::names::*;
@@ -356,7 +357,7 @@ fn dimensions(dataset: &Dataset, ids: &[i32], lengths: &[usize]) -> hdf5::Result
 fn attributes(file: &File) -> hdf5::Result<BTreeMap<String, String>> {
     let names = file.attr_names()?.into_iter();
     names
-        .filter(|name| ![CONVENTIONS, FORMAT, COORDINATES].contains(&name.as_str()))
+        .filter(|name| !is_of_format(name))
         .map(|name| number_or_words(file, &name).map(|words| (name, words)))
         .collect()
 }

@@ -48,7 +48,7 @@ pub mod block_file;
 pub use attractors::{add_attractors, add_sample};
 pub use attribute::{
     Attribute, TEXT_MEANING, attributes_of, attributes_of_set, constants, constants_beside_cases,
-    has_missing,
+    has_missing, is_of_format,
 };
 pub use block_content::{block_image, packed_bytes};
 pub use block_file::{Summary, Unusable};

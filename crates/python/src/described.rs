@@ -4,8 +4,10 @@ use std::path::PathBuf;
 
 use capsulemap::campaign;
 use capsulemap::description::Description;
+use capsulemap::experiment::{Column, Test, columns_of_motion};
 use capsulemap::of::{default_model, model_called};
 use capsulemap::quantity::Dimension;
+use capsulemap::store;
 use capsulemap::study::{Coordinate, named_system};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -32,17 +34,23 @@ pub fn read_system(
     Ok((model.name, model.equations.map_or("", |it| it.tables)))
 }
 
-/// What is known of the model with this name, or of the system of these tables; of the usual model without both.
+/// What is known of the model with this name, of the system of these tables, or of the model of a file of results; of the usual model
+/// without all of them.
 ///
-/// `parameters` and `coordinates`: the unit of a number, none where it has no unit; `choices`: what may be chosen; `outputs`: unit and
-/// meaning.
+/// `parameters`, `coordinates` and `columns` (of the recording of a motion): the unit of a number, none where it has no unit; `choices`:
+/// what may be chosen; `outputs`: unit and meaning.
 #[pyfunction]
-#[pyo3(signature = (*, model = None, tables = None))]
+#[pyo3(signature = (*, model = None, tables = None, results = None))]
 pub fn describe<'py>(
     py: Python<'py>,
     model: Option<&str>,
     tables: Option<&str>,
+    results: Option<PathBuf>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    if let Some(path) = results {
+        let file = py.detach(|| store::open(&path));
+        return told(py, file.map_err(|error| failure::of_store(py, error))?.frame().model());
+    }
     let found = match (model, tables) {
         (_, Some(tables)) => named_system::known(tables),
         // A study says which models are known.
@@ -74,11 +82,30 @@ fn told<'py>(py: Python<'py>, model: &'static Description) -> PyResult<Bound<'py
     }
     let all = PyDict::new(py);
     all.set_item("name", model.name)?;
+    all.set_item("columns", columns(py, &columns_of_motion(model))?)?;
     all.set_item("parameters", parameters)?;
     all.set_item("coordinates", coordinates)?;
     all.set_item("choices", choices)?;
     all.set_item("outputs", outputs)?;
     Ok(all)
+}
+
+/// The units of the columns of the recordings that identify constants of a rig, by the names of the tests.
+#[pyfunction]
+pub fn tests(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let tests = PyDict::new(py);
+    for test in Test::ALL {
+        tests.set_item(test.name(), columns(py, &test.columns())?)?;
+    }
+    Ok(tests)
+}
+
+fn columns<'py>(py: Python<'py>, all: &[Column]) -> PyResult<Bound<'py, PyDict>> {
+    let columns = PyDict::new(py);
+    for column in all {
+        columns.set_item(column.name, unit(column.dimension))?;
+    }
+    Ok(columns)
 }
 
 /// The unit of a quantity; none of a plain number.

@@ -5,15 +5,15 @@ use std::process;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
-use capsulemap::campaign::{CampaignError, InMemory, Moment, Wanted, silent};
+use capsulemap::campaign::{CampaignError, InMemory, OnDisk, Wanted, silent};
 use capsulemap::store::Dataset;
-use capsulemap::study::Study;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::PyDict;
 
 use super::failure;
-use super::labelled::{array, element, labels_of, of_dataset, type_name};
-use super::threads::{BETWEEN_SIGNALS, begin, machine};
+use super::labelled::of_dataset;
+use super::partial::Partial;
+use super::threads::{BETWEEN_SIGNALS, begin};
 
 /// What has come of a computation.
 enum Outcome {
@@ -25,9 +25,40 @@ enum Outcome {
     Taken,
 }
 
+/// A study that is computed.
+pub enum Work {
+    /// In memory.
+    InMemory(Arc<InMemory>),
+    /// Into its file.
+    OnDisk(Box<OnDisk>),
+}
+
+impl Work {
+    fn run(&self, wanted: Wanted) -> Result<Dataset, CampaignError> {
+        match self {
+            Work::InMemory(study) => study.run(wanted, &silent),
+            Work::OnDisk(study) => study.run(wanted),
+        }
+    }
+
+    fn progress(&self) -> [usize; 2] {
+        match self {
+            Work::InMemory(study) => study.progress(),
+            Work::OnDisk(study) => study.progress(),
+        }
+    }
+
+    fn stop(&self) {
+        match self {
+            Work::InMemory(study) => study.stop(),
+            Work::OnDisk(study) => study.stop(),
+        }
+    }
+}
+
 /// A computation, and what has come of it.
 struct Computation {
-    study: InMemory,
+    work: Work,
     outcome: Mutex<Outcome>,
     ended: Condvar,
 }
@@ -42,10 +73,9 @@ pub struct Job {
 
 impl Job {
     /// Begins to compute what is wanted of a study.
-    pub fn begin(py: Python<'_>, study: Study, wanted: Wanted) -> PyResult<Job> {
-        let study = InMemory::new(study, machine());
+    pub fn begin(py: Python<'_>, work: Work, wanted: Wanted) -> PyResult<Job> {
         let (outcome, ended) = (Mutex::new(Outcome::Running), Condvar::new());
-        let computation = Arc::new(Computation { study, outcome, ended });
+        let computation = Arc::new(Computation { work, outcome, ended });
         let own = computation.clone();
         begin(py, move || own.run(wanted))?;
         Ok(Job { computation, process: process::id() })
@@ -55,13 +85,13 @@ impl Job {
 impl Drop for Job {
     /// Ends a computation whose result nobody can ask for any more.
     fn drop(&mut self) {
-        self.computation.study.stop();
+        self.computation.work.stop();
     }
 }
 
 impl Computation {
     fn run(&self, wanted: Wanted) {
-        let run = || self.study.run(wanted, &silent);
+        let run = || self.work.run(wanted);
         let outcome = catch_unwind(AssertUnwindSafe(run)).map_or(Outcome::Broken, Outcome::Ended);
         *self.locked() = outcome;
         self.ended.notify_all();
@@ -113,12 +143,12 @@ impl Job {
 
     /// Cases that are done, and all of the study.
     fn progress(&self) -> [usize; 2] {
-        self.computation.study.progress()
+        self.computation.work.progress()
     }
 
     /// Ends the computation within a few steps; what is done stays.
     fn cancel(&self) {
-        self.computation.study.stop();
+        self.computation.work.stop();
     }
 
     /// The dataset, which is handed out once, as a dictionary; none if it was cancelled. Raises what the computation has failed with.
@@ -137,55 +167,18 @@ impl Job {
         }
     }
 
-    /// The cases that are done by now.
-    fn partial(&self, py: Python<'_>) -> Partial {
-        let moment = py.detach(|| self.computation.study.moment());
-        Partial { computation: self.computation.clone(), moment }
-    }
-}
-
-/// The cases of a study that were done at a moment. Numbers are put together as they are asked for.
-#[pyclass(frozen)]
-pub struct Partial {
-    computation: Arc<Computation>,
-    moment: Moment,
-}
-
-#[pymethods]
-impl Partial {
-    /// All but the variables over the cases, as a dictionary.
-    fn frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let frame = py.detach(|| self.computation.study.at(&self.moment).frame());
-        of_dataset(py, frame)
-    }
-
-    /// The variables over the cases: name, dimensions, shape, type and attributes of each.
-    #[expect(clippy::type_complexity)]
-    fn labels<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<
-        Vec<(String, Bound<'py, PyTuple>, Bound<'py, PyTuple>, &'static str, Bound<'py, PyDict>)>,
-    > {
-        let labels = py.detach(|| self.computation.study.at(&self.moment).labels());
-        let told = labels.into_iter().map(|it| {
-            let own = labels_of(py, &it.name, &it.label, it.element)?;
-            let dimensions = PyTuple::new(py, &it.label.dimensions)?;
-            let shape = PyTuple::new(py, &it.shape)?;
-            Ok((it.name, dimensions, shape, type_name(it.element), own))
-        });
-        told.collect()
-    }
-
-    /// The numbers of a variable over the cases: NaN, 0 or the outcome `missing` of those that were not done.
-    fn numbers<'py>(&self, py: Python<'py>, name: String) -> PyResult<Bound<'py, PyAny>> {
-        let found = py.detach(|| self.computation.study.at(&self.moment).variable(&name));
-        match found.map_err(|error| failure::of_campaign(py, error))? {
-            Some(variable) => {
-                let element = element(&variable);
-                Ok(array(py, variable.values, element))
+    /// The cases that are done by now: of a study in memory a `Partial`, of one with a file the dataset as a dictionary.
+    fn partial<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match &self.computation.work {
+            Work::InMemory(study) => {
+                let moment = py.detach(|| study.moment());
+                Ok(Bound::new(py, Partial::new(study.clone(), moment))?.into_any())
             }
-            None => Err(failure::of_request(py, format!("there is no variable `{name}`"))),
+            Work::OnDisk(study) => {
+                let dataset = py.detach(|| study.so_far());
+                let dataset = dataset.map_err(|error| failure::of_campaign(py, error))?;
+                Ok(of_dataset(py, dataset)?.into_any())
+            }
         }
     }
 }

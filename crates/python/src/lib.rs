@@ -7,6 +7,8 @@ mod described;
 mod failure;
 mod job;
 mod labelled;
+mod partial;
+mod saved;
 mod simulation;
 mod study;
 mod threads;
@@ -27,13 +29,17 @@ mod _capsulemap {
     use capsulemap::store;
 
     #[pymodule_export]
-    use super::described::{describe, read_system};
+    use super::described::{describe, read_system, tests};
     #[pymodule_export]
-    use super::job::{Job, Partial};
+    use super::job::Job;
+    #[pymodule_export]
+    use super::partial::Partial;
+    #[pymodule_export]
+    use super::saved::write_results;
     #[pymodule_export]
     use super::study::Study;
     #[pymodule_export]
-    use super::threads::set_threads;
+    use super::threads::{set_threads, threads};
 
     /// Tells the library the commit that it is built from, as the command line does.
     #[pymodule_init]

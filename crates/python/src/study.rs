@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use capsulemap::campaign::{Wanted, check_names, read_study};
+use capsulemap::campaign::{InMemory, OnDisk, Wanted, check_names, read_study};
 use capsulemap::study::{self, Fault, Faults};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::failure;
-use super::job::Job;
+use super::job::{Job, Work};
 use super::simulation::simulated;
+use super::threads::machine;
 
 /// A study that obeys all rules.
 #[pyclass(frozen)]
@@ -52,10 +53,12 @@ impl Study {
         &self.0.text
     }
 
-    /// What was taken where the text leaves it open, in sentences.
+    /// What was taken where the text leaves it open, and what has no effect, in sentences.
     #[getter]
     fn remarks(&self) -> Vec<String> {
-        self.0.remarks.clone()
+        let of_values =
+            self.0.remarks_on_values().into_iter().chain(self.0.varied_without_effect());
+        self.0.remarks.iter().cloned().chain(of_values).collect()
     }
 
     /// Number of values along each dimension of its results, by their names, slowest first.
@@ -74,9 +77,22 @@ impl Study {
         self.0.branches.len()
     }
 
-    /// Begins to compute its cases, its branches, or both.
-    fn begin(&self, py: Python<'_>, cases: bool, branches: bool) -> PyResult<Job> {
-        Job::begin(py, (*self.0).clone(), Wanted { cases, branches })
+    /// Begins to compute its cases, its branches, or both: in memory, or into a file where one is given.
+    #[pyo3(signature = (cases, branches, file = None, overwrite = false))]
+    fn begin(
+        &self,
+        py: Python<'_>,
+        cases: bool,
+        branches: bool,
+        file: Option<PathBuf>,
+        overwrite: bool,
+    ) -> PyResult<Job> {
+        let study = (*self.0).clone();
+        let work = match file {
+            None => Work::InMemory(Arc::new(InMemory::new(study, machine()))),
+            Some(file) => Work::OnDisk(Box::new(OnDisk::new(study, file, machine(), overwrite))),
+        };
+        Job::begin(py, work, Wanted { cases, branches })
     }
 
     /// The first case from its start over so many cycles, as a dictionary: its sections and events.

@@ -37,10 +37,16 @@ pub fn set_threads(py: Python<'_>, count: Option<i64>) -> PyResult<()> {
     Ok(())
 }
 
+/// On how many threads everything is computed; none for one per core.
+#[pyfunction]
+pub fn threads() -> Option<usize> {
+    let count = THREADS.load(Ordering::Relaxed);
+    (count > 0).then_some(count)
+}
+
 /// What is computed on.
 pub fn machine() -> Machine {
-    let count = THREADS.load(Ordering::Relaxed);
-    Machine { threads: (count > 0).then_some(count), ..Machine::default() }
+    Machine { threads: threads(), ..Machine::default() }
 }
 
 /// Begins work in a thread with room for what lanes keep on the stack.
