@@ -14,8 +14,10 @@ from ._recordings import Recording, file_of
 from ._saved import Folder, Place, Results
 from ._text import Quantity
 
-SHOWN_DPI = 192
-"""Dots per inch of what a notebook shows, of which browsers count 96."""
+SHOWN_DPI = 300
+"""Dots per inch of what a notebook shows."""
+SHOWN_WIDTH = 150
+"""Of which it shows so many as an inch, larger than in print."""
 NAME = "figure"
 """What the files are called until they are saved."""
 
@@ -62,7 +64,7 @@ class Figure:
             image = file.read()
         # The width of a PNG file is in its first chunk.
         width = int.from_bytes(image[16:20], "big")
-        shown = min(width, 800) if self._draw is None else width * 96 // SHOWN_DPI
+        shown = min(width, 800) if self._draw is None else width * SHOWN_WIDTH // SHOWN_DPI
         picture = base64.b64encode(image).decode("ascii")
         return {"image/png": picture, "text/plain": repr(self)}, {"image/png": {"width": shown}}
 

@@ -21,6 +21,24 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:  # noqa: A001
     return dataset(_capsulemap.read_results(os.fspath(path)))
 
 
+def names(category: xarray.DataArray) -> xarray.DataArray:
+    """The names of a category, as ``outcome``, ``certificate`` or ``special_kind``, in place of its numbers.
+
+    Raises ValueError where a variable is no category.
+    """
+    import numpy
+
+    own = category.attrs
+    if "flag_values" not in own or "flag_meanings" not in own:
+        raise ValueError(f"{category.name}: is no category, as it has no flag_meanings")
+    codes, words = numpy.atleast_1d(own["flag_values"]), own["flag_meanings"].split(" ")
+    named = dict(zip(codes.tolist(), words))
+    values = numpy.array([named.get(code, "") for code in category.values.ravel().tolist()], dtype=object)
+    named_all = category.copy(data=values.reshape(category.shape).astype(str))
+    named_all.attrs = {"long_name": own.get("long_name", "")}
+    return named_all
+
+
 def dataset(raw: dict[str, Any]) -> xarray.Dataset:
     """What the library hands out as a dataset, in which missing numbers are NaN."""
     return _decoded(_variables(raw), raw["attributes"]).load()

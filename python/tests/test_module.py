@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import json
 import statistics
 import subprocess
 import sys
@@ -63,12 +64,19 @@ class Written(unittest.TestCase):
                     if inspect.isfunction(value) and not method.startswith("_"):
                         self.assertTrue(inspect.getdoc(value), f"{name}.{method}")
 
-    def test_the_tour_runs(self) -> None:
-        text = (ROOT / "python" / "README.md").read_text(encoding="utf-8")
-        blocks = [part.split("```")[0] for part in text.split("```python\n")[1:]]
-        self.assertGreater(len(blocks), 2)
-        code = "\n".join(blocks)
-        done = run("-W", "error::UserWarning", "-c", code, folder=ROOT)
+    def test_the_documents_run(self) -> None:
+        for name in ("README.md", "names.md"):
+            text = (ROOT / "python" / name).read_text(encoding="utf-8")
+            blocks = [part.split("```")[0] for part in text.split("```python\n")[1:]]
+            self.assertGreater(len(blocks), 2)
+            done = run("-W", "error::UserWarning", "-c", "\n".join(blocks), folder=ROOT)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_the_tutorial_runs_from_top_to_bottom(self) -> None:
+        notebook = json.loads((ROOT / "python" / "tutorial.ipynb").read_text(encoding="utf-8"))
+        cells = ["".join(it["source"]) for it in notebook["cells"] if it["cell_type"] == "code"]
+        self.assertGreater(len(cells), 10)
+        done = run("-W", "error::UserWarning", "-c", "\n".join(cells), folder=ROOT / "python")
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_the_import_brings_no_xarray(self) -> None:

@@ -44,6 +44,13 @@ class Results(BesideTheCommandLine):
         self.assertEqual(dataset.attrs["title"], "µ and \"quotes\"")
         self.assert_same_as_file(dataset)
 
+    def test_categories_have_names(self) -> None:
+        dataset = capsulemap.sweep(FIG5, {"omega": Axis(60, 90, 3)})
+        self.assertEqual(list(capsulemap.names(dataset.outcome).values), ["periodic"] * 3)
+        self.assertEqual(capsulemap.names(dataset.certificate).dims, ("omega",))
+        with self.assertRaisesRegex(ValueError, "no category"):
+            capsulemap.names(dataset.period)
+
     def test_a_basin_with_its_attractors(self) -> None:
         axes = {"start_r": Axis("-4 mm", "4 mm", 12), "start_y1": Axis(-0.4, 0.4, 10)}
         dataset = capsulemap.basin(TWO_MOTIONS.replace(omega=155), axes)

@@ -29,12 +29,10 @@ impl Study {
         Study::named(py, study, name)
     }
 
-    /// The study that a text says which was put together from arguments: it is written anew with all digits, and the faults tell no
-    /// lines.
+    /// The study that a text says which was put together from arguments: the faults tell no lines.
     #[staticmethod]
     fn built(py: Python<'_>, text: &str, name: &str) -> PyResult<Study> {
         let study = study::Study::parse(name, text).map_err(without_lines);
-        let study = study.and_then(|study| study.validated(name));
         let study = study.map_err(|faults| failure::of_faults(py, faults))?;
         Study::named(py, study, name)
     }
