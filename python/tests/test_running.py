@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import os
 import signal
 import statistics
@@ -99,6 +101,26 @@ class Interrupts(unittest.TestCase):
             signal.signal(signal.SIGINT, before)
             timer.join()
         self.assertLess(time.monotonic() - begun, 30)
+
+
+class Progress(unittest.TestCase):
+    def test_a_long_sweep_shows_how_far_it_is(self) -> None:
+        said = io.StringIO()
+        capsulemap.set_progress(True)
+        self.addCleanup(capsulemap.set_progress, None)
+        with contextlib.redirect_stderr(said):
+            capsulemap.sweep(FIG5, {"omega": Axis(20, 120, 400), "p_d": Axis(1, 6, 150)})
+        shown = said.getvalue().split("\r")
+        self.assertRegex("".join(shown), "[0-9]+ of 60000 cases, [0-9]+ s, about [0-9]+ s left")
+        # Nothing of it stays on the line.
+        self.assertEqual(shown[-1], "")
+        self.assertEqual(shown[-2].strip(), "")
+
+    def test_nothing_is_shown_unasked(self) -> None:
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            capsulemap.sweep(FIG5, {"omega": Axis(20, 120, 400), "p_d": Axis(1, 6, 60)})
+        self.assertEqual(said.getvalue(), "")
 
 
 class Background(unittest.TestCase):
