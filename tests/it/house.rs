@@ -29,7 +29,7 @@ pub const FOLDERS: [&str; 13] = [
 ];
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 22] = [
+const FLOORS: [&str; 23] = [
     "lane",
     "flow",
     "orbit",
@@ -38,6 +38,7 @@ const FLOORS: [&str; 22] = [
     "quantity",
     "description",
     "motion",
+    "samples",
     "face",
     "capsule",
     "model",
