@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import random
 import signal
 import tempfile
 import threading
+import time
 import unittest
 import warnings
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import capsulemap
 import xarray
 from capsulemap import Axis, Draws, StudyError
 
 from program import FIG5, SYSTEMS, TWO_MOTIONS, command_line
+
+
+STOPS = int(os.environ.get("STOPS", "3"))
+"""How often each study is stopped before it is resumed to its end."""
 
 
 class InAFolder(unittest.TestCase):
@@ -117,6 +126,35 @@ class Kept(InAFolder):
         xarray.testing.assert_identical(whole, capsulemap.open(path))
         xarray.testing.assert_equal(whole, capsulemap.sweep(FIG5, self.axes))
         self.assertEqual(os.listdir(self.folder), ["kept.h5"])
+
+    def test_what_was_stopped_anywhere_is_resumed_to_the_same_numbers(self) -> None:
+        starts = {"start_r": Axis("-4 mm", "4 mm", 300), "start_y1": Axis(-0.4, 0.4, 300)}
+        plane = {"omega": Axis(130, 170, 130), "p_d": Axis(2, 3, 130)}
+        line = {"omega": Axis(130, 170, 3000), "p_d": Axis(2, 3, 3)}
+        asked: list[Callable[..., Any]] = [
+            lambda **how: capsulemap.basin(TWO_MOTIONS.replace(omega=155), starts, refine=True, **how),
+            lambda **how: capsulemap.sweep(TWO_MOTIONS, plane, refine={"progression_speed": 1e-3}, **how),
+            lambda **how: capsulemap.sweep(TWO_MOTIONS, line, inherit="omega", directions=["upward"], **how),
+        ]
+        numbers = random.Random(STOPS)
+        for number, ask in enumerate(asked):
+            begun = time.monotonic()
+            whole = ask()
+            taken = time.monotonic() - begun
+            path = self.folder / f"stopped-{number}.h5"
+            stopped = 0
+            for _ in range(STOPS):
+                job = ask(keep=path, blocking=False)
+                time.sleep(numbers.uniform(0, taken / 3))
+                # What is done by then may be no whole block.
+                with contextlib.suppress(StudyError):
+                    job.cancel()
+                stopped += job.status().state == "cancelled"
+            self.assertGreater(stopped, 0)
+            resumed = ask(keep=path)
+            created = resumed.attrs.pop("created"), whole.attrs.pop("created")
+            self.assertEqual(len(created), 2)
+            xarray.testing.assert_identical(resumed, whole)
 
     def test_results_that_are_there_are_read(self) -> None:
         path = self.folder / "kept.h5"
