@@ -13,7 +13,7 @@ from ._figure import Figure, figure
 from ._job import Job, Status
 from ._orbit import Orbit
 from ._progress import set_progress
-from ._results import names, open
+from ._results import names, open, tree
 from ._runs import attractors, basin, branch, orbit, simulate, sweep
 from ._saved import save
 from ._study import Study
@@ -58,4 +58,5 @@ __all__ = [
     "simulate",
     "sweep",
     "tradeoff",
+    "tree",
 ]

@@ -21,6 +21,41 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:  # noqa: A001
     return dataset(_capsulemap.read_results(os.fspath(path)))
 
 
+NODES = {
+    "attractor_index": "attractors",
+    "edge_index": "edges",
+    "branch_request": "requests",
+    "branch_index": "branches",
+    "branch_point": "branch_points",
+    "special_point": "special_points",
+    "curve_index": "curves",
+    "curve_point": "curve_points",
+    "block": "blocks",
+}
+"""The nodes of a tree, by the dimension that their variables begin with."""
+
+
+def tree(results: xarray.Dataset) -> xarray.DataTree:
+    """Results as a tree: the cases and what is the same for all at the root, and a node for each table.
+
+    The nodes are "attractors", "edges" (orbits on boundaries of basins), "branches", "branch_points", "special_points", "curves" and
+    "curve_points", those that there are. Variables have the names that they have in the dataset. Needs xarray 2024.10 or later.
+    """
+    import xarray
+
+    tables: dict[str, list[str]] = {}
+    for name, variable in results.data_vars.items():
+        first = str(variable.dims[0]) if variable.dims else ""
+        tables.setdefault(NODES.get(first, "/"), []).append(str(name))
+    nodes = {"/": results[tables.pop("/", [])]}
+    constants = [name for name in results.coords if not results[name].dims]
+    for node, own in sorted(tables.items()):
+        nodes[node] = results[own].drop_vars(constants)
+        # What is the same for all is told once.
+        nodes[node].attrs = {}
+    return xarray.DataTree.from_dict(nodes)
+
+
 def names(category: xarray.DataArray) -> xarray.DataArray:
     """The names of a category, as ``outcome``, ``certificate`` or ``special_kind``, in place of its numbers.
 

@@ -44,6 +44,22 @@ class Results(BesideTheCommandLine):
         self.assertEqual(dataset.attrs["title"], "µ and \"quotes\"")
         self.assert_same_as_file(dataset)
 
+    @unittest.skipUnless(hasattr(xarray, "DataTree"), "this xarray has no trees")
+    def test_a_tree_has_all_of_a_dataset(self) -> None:
+        system, axes = TWO_MOTIONS.replace(omega=155), {"start_r": Axis("-4 mm", "4 mm", 6)}
+        both = [
+            capsulemap.basin(system, {**axes, "start_y1": Axis(-0.4, 0.4, 6)}),
+            capsulemap.branch(TWO_MOTIONS.replace(omega=140), "omega", (138, 160), start={"y1": 0.3}),
+        ]
+        for dataset in both:
+            tree = capsulemap.tree(dataset)
+            found = {name: it for node in tree.subtree for name, it in node.data_vars.items()}
+            self.assertEqual(set(found), set(dataset.data_vars))
+            for name, variable in found.items():
+                numpy.testing.assert_array_equal(variable, dataset[name])
+        self.assertEqual(tree["special_points"].sizes["special_point"], dataset.sizes["special_point"])
+        self.assertEqual(dict(tree["branches"].attrs), {})
+
     def test_categories_have_names(self) -> None:
         dataset = capsulemap.sweep(FIG5, {"omega": Axis(60, 90, 3)})
         self.assertEqual(list(capsulemap.names(dataset.outcome).values), ["periodic"] * 3)
