@@ -8,6 +8,7 @@
 pub mod answer;
 pub mod bounding;
 mod clear;
+mod collect;
 mod compute;
 pub mod conditions;
 pub mod conditions_of_draws;

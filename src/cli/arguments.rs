@@ -5,6 +5,9 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::Path;
 
 use super::failure::Failure;
+use super::readable::counted;
+use super::scheduler;
+use super::terminal::notify;
 use crate::campaign::quoted;
 use crate::description::{Description, Output};
 use crate::lane::Instructions;
@@ -19,7 +22,7 @@ pub fn machine(
     threads: Option<u16>,
     instructions: Option<Instructions>,
 ) -> Result<Machine, Failure> {
-    let threads = threads.map(usize::from).or_else(|| granted().filter(|count| *count > 0));
+    let threads = threads.map(usize::from).or_else(granted);
     let Some(missing) = instructions.filter(|it| !it.is_available()) else {
         return Ok(Machine { threads, instructions });
     };
@@ -31,9 +34,12 @@ pub fn machine(
     )))
 }
 
-/// The processors that Slurm has granted a task, if it says so.
+/// The processors that a scheduler has granted this task, if one says so; it is told where a run would use others.
 fn granted() -> Option<usize> {
-    std::env::var("SLURM_CPUS_PER_TASK").ok()?.trim().parse().ok()
+    let (count, name) = scheduler::granted(&|name| std::env::var(name).ok())?;
+    let threads = counted(count, "thread");
+    notify(&format!("{threads}, as {name} says; --threads sets another number"));
+    Some(count)
 }
 
 /// Reads one of a few names, which the help then lists.

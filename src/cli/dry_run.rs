@@ -1,33 +1,46 @@
 //! What a sweep would take: cases, time and disk space, estimated from a probe.
 
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 use super::failure::Failure;
 use super::readable::{count, counted, estimated, size, time};
 use super::terminal::print;
-use crate::campaign::{BlockStatus, Campaign, Probe, memory, probe, silent};
+use crate::campaign::{BlockStatus, Campaign, Probe, Task, memory, probe, silent};
 use crate::figure::variables;
 use crate::quantity::printable::printable;
 use crate::run::{Estimate, has_attractors};
 use crate::store;
-use crate::study::Study;
+use crate::study::{Study, spread};
 
 /// What a figure takes beside the numbers that it shows, with its fonts and its picture in points [bytes].
 const DRAWING: f64 = 4e7;
 /// The probe ends after this time, with what has been begun.
 const PROBE: Duration = Duration::from_secs(5);
 
-/// Computes a few blocks, spread over the study, and says what all would take. Keeps nothing.
-pub fn estimate(campaign: &Campaign<'_>) -> Result<(), Failure> {
+/// Computes a few blocks, spread over the study, and says what all that a task has to compute would take. Keeps nothing.
+pub fn estimate(campaign: &Campaign<'_>, task: Task) -> Result<(), Failure> {
     let blocks = campaign.status()?.blocks.unwrap_or_default();
     let probe = probe(campaign.study, campaign.machine, PROBE, &silent)?;
-    print(&text(campaign, &blocks, &probe))
+    print(&text(campaign, task, &blocks, &probe))
 }
 
-fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String {
+fn text(campaign: &Campaign<'_>, task: Task, blocks: &BlockStatus, probe: &Probe) -> String {
     let Campaign { study, machine, output, .. } = *campaign;
+    let share = task.share(spread(study.blocks()));
+    let done: BTreeSet<usize> = blocks.done.iter().map(|it| it.number).collect();
+    let undone: Vec<usize> = share.iter().copied().filter(|block| !done.contains(block)).collect();
+    let in_blocks = |some: &[usize]| some.iter().map(|it| study.cases_of_block(*it)).sum::<usize>();
     // What is done takes neither time nor room any more; the probe is a sample of all blocks.
-    let left = 1.0 - blocks.cases() as f64 / study.cases() as f64;
+    let left = in_blocks(&undone) as f64 / study.cases() as f64;
+    let of_task = match task.of {
+        1 => String::new(),
+        _ => format!(
+            "  {task}: {} with {}; time and room of the blocks are its own\n",
+            counted(share.len(), "block"),
+            counted(in_blocks(&share), "case")
+        ),
+    };
     let done = match blocks.done.len() {
         0 => String::new(),
         done => format!(
@@ -50,7 +63,7 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
     let figures =
         figures(study).map_or(String::new(), |it| format!(", {} more for a figure", size(it)));
     format!(
-        "{}\n  cases  {cases} in {all}\n{done}  time   {seconds}{more}\n  \
+        "{}\n  cases  {cases} in {all}\n{of_task}{done}  time   {seconds}{more}\n  \
          room   {} for the blocks until they are joined, {} for the file{beside}\n  \
          memory about {computing} while cases are computed, {joining} while they are joined{figures}\n  \
          estimated from {} in {}, computed in {}; nothing was kept\n",

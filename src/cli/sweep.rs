@@ -9,7 +9,7 @@ use super::arguments::{machine, named, study_arguments};
 use super::drawing::{FormatChoice, draw_from, formats, rehearse};
 use super::dry_run::estimate;
 use super::failure::Failure;
-use super::slurm;
+use super::scheduler::{self, AskedTask};
 use super::terminal::notify;
 use super::watch::Watch;
 use crate::campaign::{Campaign, Complete, Done, Event, Task, output_path, read_study};
@@ -29,8 +29,10 @@ Examples:
   capsulemap sweep STUDY.toml --task 3/8   # the third of 8 machines
   capsulemap join STUDY.toml               # once all 8 are done
 
-A run that was interrupted is resumed by the same command. Without --task, a job of a Slurm array \
-takes its part by itself; scripts/slurm has the array script.";
+A run that was interrupted is resumed by the same command. Without --task, an element of an array of Slurm, Grid Engine, LSF or AWS \
+Batch takes its part by itself. PBS, Torque and indexed jobs of Kubernetes do not say how many elements there are: \
+--task $PBS_ARRAY_INDEX/8. The same goes for HyperQueue ($HQ_TASK_ID) and GNU parallel ($PARALLEL_SEQ). scripts/slurm, scripts/pbs and \
+scripts/kubernetes have array scripts.";
 
 /// More values on an axis than this are alike to every figure.
 const MOST_VALUES: usize = 16;
@@ -45,13 +47,17 @@ pub struct Sweep {
     /// beside it, in a folder NAME.blocks, until they are joined.
     #[arg(long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
-    /// Compute the I-th of N parts only, and do not join them; 1/1 is all, whatever Slurm says.
-    #[arg(long, value_name = "I/N")]
-    task: Option<Task>,
+    /// Compute the I-th of N parts only, and do not join them; 1/1 is all, whatever a scheduler says. With auto, and without this option in
+    /// an array of Slurm, Grid Engine, LSF or AWS Batch, the scheduler says which part.
+    #[arg(long, value_name = "I/N|auto")]
+    task: Option<AskedTask>,
+    /// The number of the first part: 0 where a scheduler counts so.
+    #[arg(long, value_name = "NUMBER", default_value_t = 1, requires = "task")]
+    first_task: usize,
     /// Compute nothing but a few blocks as a probe, and estimate time and size.
-    #[arg(long, conflicts_with = "task")]
+    #[arg(long)]
     dry_run: bool,
-    /// Worker threads; one per core by default, or SLURM_CPUS_PER_TASK.
+    /// Worker threads; one per core by default, or SLURM_CPUS_PER_TASK, NSLOTS, NCPUS, LSB_DJOB_NUMPROC or OMP_NUM_THREADS, the first that is set.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Instructions to compute by; the widest that the processor has, or that the study fills, by default.
@@ -86,7 +92,7 @@ impl Sweep {
         if self.dry_run {
             campaign.kept()?;
             self.rehearse(&study, &place)?;
-            return estimate(&campaign);
+            return estimate(&campaign, self.task()?);
         }
         let task = self.task()?;
         let watch = Watch::new(&self.study, &study);
@@ -124,22 +130,34 @@ impl Sweep {
     /// Which part of the study to compute.
     fn task(&self) -> Result<Task, Failure> {
         let task = match self.task {
-            Some(task) => task,
-            None => match slurm::task(|name| std::env::var(name).ok()) {
-                None => return Ok(Task::WHOLE),
-                Some(task) => {
-                    let task = task.map_err(Failure::request)?;
-                    notify(&format!(
-                        "{task}, as SLURM_ARRAY_TASK_ID says; --task 1/1 computes all"
-                    ));
-                    task
-                }
-            },
+            Some(AskedTask::Part { number, of }) => self.part(number, of)?,
+            asked => {
+                let found = scheduler::task(asked.is_some(), &|name| std::env::var(name).ok());
+                let found = found.map_err(|why| match asked {
+                    Some(_) => Failure::request(format!("--task auto: {why}")),
+                    None => Failure::request(why),
+                })?;
+                let Some((task, name)) = found else { return Ok(Task::WHOLE) };
+                notify(&format!("{task}, as {name} says; --task 1/1 computes all"));
+                task
+            }
         };
         if task.of > 1 {
             notify(&format!("{task}: one block in {}", task.of));
         }
         Ok(task)
+    }
+
+    /// The part of this number, counted from the first.
+    fn part(&self, number: usize, of: usize) -> Result<Task, Failure> {
+        let first = self.first_task;
+        let place = number.checked_sub(first).filter(|place| *place < of);
+        place.map(|place| Task { number: place + 1, of }).ok_or_else(|| {
+            let last = (first + of).saturating_sub(1);
+            Failure::request(format!(
+                "--task {number}/{of}: expected I/N with I from {first} to {last}, as N is {of} and the first part has the number {first}"
+            ))
+        })
     }
 
     /// The end of a task.

@@ -202,6 +202,13 @@ impl BlockFolder {
         Ok(summary)
     }
 
+    /// Copies a block from another folder, completely or not at all.
+    pub fn copy(&self, other: &BlockFolder, number: usize) -> Result<(), StoreError> {
+        let file = other.file(number);
+        let bytes = fs::read(&file).map_err(StoreError::system(&file, "reading"))?;
+        put(&self.file(number), &bytes)
+    }
+
     /// Removes all blocks, and the folder with them unless it holds other files or is linked to from its place.
     ///
     /// What says that the folder is one of blocks goes last, so that a later run finds what is left and removes it.

@@ -89,6 +89,7 @@ mod rig;
 mod saddles;
 mod run;
 mod sampled;
+mod schedulers;
 mod sizes;
 mod slurm;
 mod smoothed_records;
