@@ -57,6 +57,8 @@ def tables(axes: Mapping[str, object], units: Mapping[str, str | None], drawn: b
         if drawn and isinstance(axis, tuple) and len(axis) == 2:
             axis = Axis(*axis)
         if isinstance(axis, Axis):
+            if axis.points is None and not drawn:
+                raise _text.unfit(f"axes[{name!r}]", "an Axis without points is a range for draws; how many points has it?")
             pairs = axis._pairs(f"axes.{name}", unit)
         else:
             pairs = {"values": _text.quantities(f"axes.{name}", _values(axis), unit)}
@@ -65,6 +67,9 @@ def tables(axes: Mapping[str, object], units: Mapping[str, str | None], drawn: b
 
 
 def _values(axis: Any) -> list[object]:
+    unit = _text.labelled_unit(axis)
+    if unit is not None:
+        return [f"{_text.number(it)} {unit}" for it in axis.values.ravel().tolist()]
     if hasattr(axis, "tolist") and not hasattr(axis, "magnitude"):
         values = axis.tolist()
         return values if isinstance(values, list) else [values]

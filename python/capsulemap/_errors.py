@@ -43,7 +43,7 @@ class MachineError(RuntimeError):
 
 
 class StudyWarning(UserWarning):
-    """What was taken where a study leaves it open, or what of it has no effect."""
+    """A default that was assumed, a setting without effect, or what may be wrong with a recording."""
 
 
 class PartialResultWarning(UserWarning):

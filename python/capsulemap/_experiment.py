@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _capsulemap, _process, _text
 from ._built import Built
+from ._errors import StudyWarning, warn
 from ._figure import Figure, of_files
 from ._recordings import Recording, file_of
 from ._runs import Start
@@ -21,9 +22,16 @@ if TYPE_CHECKING:
     import xarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Fit:
-    """Parameters that were fitted to recorded histories."""
+    """Parameters that were fitted to recorded histories.
+
+    ``parameters``: a dataset over ``parameter`` with ``value``, ``standard_error``, ``lower`` and ``upper`` (the interval of 95 %, from the
+    profile likelihood) in the SI unit that ``unit`` names, and ``verdict``: "determined", "limited above", "limited below" or
+    "not determined". ``values``: the values by name. ``system``: the system with these values. ``misfit``: the standard deviation of the residuals
+    over the noise of the recordings, 1 where nothing but noise is left. ``warnings``: what is to be doubted, which is warned of, too.
+    ``told``: all that the command line tells, as covariances and drifts.
+    """
 
     parameters: xarray.Dataset
     """Over ``parameter``: ``value``, ``standard_error``, ``lower`` and ``upper`` (the interval of 95 %, from the profile likelihood), ``unit``
@@ -39,24 +47,48 @@ class Fit:
     told: Mapping[str, Any]
     """All that the command line tells with ``--json``, as covariances and drifts."""
 
+    def __repr__(self) -> str:
+        told = [f"<Fit: misfit {self.misfit:.4g}>"]
+        for name, value in self.values.items():
+            row = self.parameters.sel(parameter=name)
+            unit = "" if row.unit.item() == "1" else f" {row.unit.item()}"
+            error, verdict = row.standard_error.item(), row.verdict.item()
+            told.append(f"  {name} = {value:.6g}{unit}, standard error {error:.2g}, {verdict}")
+        return "\n".join(told + [f"  warning: {it}" for it in self.warnings])
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Comparison:
-    """A recording beside the simulation of the same case."""
+    """A recording beside the simulation of the same case.
+
+    ``errors``: a dataset over ``signal`` with ``error``, the root mean square of the difference over the standard deviation of the record, and of a
+    capsule ``shape_error``, without the difference of the speeds. ``figure``: both over time. ``warnings``: what may be wrong with the
+    recording, which is warned of, too. ``told``: all that the command line tells: periods, speeds, impacts, gaps, ``explanations``.
+    """
 
     errors: xarray.Dataset
     """Over ``signal``: ``error``, the root mean square of the difference over the standard deviation of the record."""
     figure: Figure
     """Both over time."""
+    warnings: list[str]
+    """What may be wrong with the recording, in sentences."""
     told: Mapping[str, Any]
     """All that the command line tells with ``--json``: periods, speeds, impacts, gaps, explanations."""
-    notes: list[str]
-    """What it says beside, in sentences."""
+
+    def __repr__(self) -> str:
+        told = ["<Comparison>"]
+        told += [f"  error of {name}: {100 * self.errors.error.sel(signal=name).item():.3g} %" for name in self.errors.signal.values.tolist()]
+        return "\n".join(told + [f"  warning: {it}" for it in self.warnings])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Identified:
-    """Constants of a rig, from simple tests."""
+    """Constants of a rig, from simple tests.
+
+    ``parameters``: a dataset over ``parameter`` with ``value``, ``standard_error``, ``lower`` and ``upper`` (95 %) in the SI unit that ``unit`` names,
+    ``verdict`` and ``method``. ``values``: those that are determined, by name. ``told``: all that the command line tells. ``notes``:
+    what it says beside.
+    """
 
     parameters: xarray.Dataset
     """Over ``parameter``: ``value``, ``standard_error``, ``lower`` and ``upper`` (95 %), ``unit``, ``verdict`` and ``method``."""
@@ -66,6 +98,14 @@ class Identified:
     """All that the command line tells with ``--json``."""
     notes: list[str]
     """What it says beside, in sentences."""
+
+    def __repr__(self) -> str:
+        told = ["<Identified>"]
+        for it in self.told["identified"]:
+            unit = "" if it["unit"] == "1" else f" {it['unit']}"
+            value = "no value" if it["value"] is None else f"{it['value']:.6g}{unit}"
+            told.append(f"  {it['name']} = {value}, {it['verdict']}, {it['method']}")
+        return "\n".join(told)
 
 
 def fit(
@@ -86,7 +126,8 @@ def fit(
     bounds. ``cycles`` of each recording are used, 6 unless given; ``starts`` searches begin within the bounds. With ``robust`` outliers
     count little. Ctrl-C ends it. Raises StudyError where recordings or bounds do not fit, and MachineError.
     """
-    systems = list(system) if isinstance(system, Sequence) else [system]
+    systems = _systems(system)
+    _text.mapping("vary", vary, '{"k2": ("1 kN/m", "5 kN/m")}')
     units = systems[0]._description()["parameters"]
     varied = [_bounds(name, ends, units.get(name)) for name, ends in vary.items()]
     with tempfile.TemporaryDirectory(prefix="capsulemap-") as folder:
@@ -94,6 +135,8 @@ def fit(
         studies = [_study(it, start, folder, f"study-{number}") for number, it in enumerate(systems)]
         given = {"study": studies, "vary": varied, "cycles": cycles, "starts": starts, "robust": robust}
         told, _ = _process.asked_for_json(["fit", *files, *_process.options(given)], folder)
+    for warning in told["warnings"]:
+        warn(warning, StudyWarning)
     parameters = _parameters(told["fitted"])
     values = {it["name"]: it["value"] for it in told["fitted"]}
     return Fit(
@@ -115,19 +158,22 @@ def compare(
     cycles: int = 5,
     protocol: Mapping[str, object] | None = None,
 ) -> Comparison:
-    """A recording beside the motion that the case settles to.
+    """Compares a recording with the simulated motion that the case settles to.
 
     The recording is as that of ``fit``. Each mapping of ``explain`` has parameters with bounds that are fitted together, and tells how
     much of the difference they explain (of a capsule); the figure shows so many ``cycles``. Raises StudyError and MachineError.
     """
+    _check_system(system)
     units = system._description()["parameters"]
     choices = [",".join(_bounds(name, ends, units.get(name)) for name, ends in it.items()) for it in explain]
     folder = Folder()
     files = _files(recording, system, folder.name)
     study = _study(system, start, folder.name, "study", protocol)
     given = {"explain": choices, "cycles": cycles, "output": "comparison"}
-    told, notes = _process.asked_for_json(["compare", *files, study, *_process.options(given)], folder.name)
-    return Comparison(_errors(told["errors"]), of_files(folder, "comparison"), told, notes)
+    told, _ = _process.asked_for_json(["compare", *files, study, *_process.options(given)], folder.name)
+    for warning in told["warnings"]:
+        warn(warning, StudyWarning)
+    return Comparison(_errors(told["errors"]), of_files(folder, "comparison"), told["warnings"], told)
 
 
 def identify(
@@ -172,6 +218,19 @@ def identify(
     return Identified(parameters, values, told, notes)
 
 
+def _systems(system: Any) -> list[_Parametric]:
+    """The systems of recordings, or the one of all."""
+    systems = list(system) if isinstance(system, (list, tuple)) else [system]
+    for it in systems:
+        _check_system(it)
+    return systems
+
+
+def _check_system(system: object) -> None:
+    if not isinstance(system, _Parametric):
+        raise TypeError(f"expected a Capsule or an Oscillator, found {type(system).__name__}")
+
+
 def _files(recordings: Any, system: _Parametric, folder: str) -> list[str]:
     """The files of recordings, or of one."""
     each = [recordings] if _is_one(recordings) else list(recordings)
@@ -182,7 +241,7 @@ def _files(recordings: Any, system: _Parametric, folder: str) -> list[str]:
 
 def _is_one(recordings: Any) -> bool:
     is_path_or_columns = isinstance(recordings, (str, os.PathLike, Mapping))
-    return is_path_or_columns or hasattr(recordings, "columns")
+    return is_path_or_columns or hasattr(recordings, "columns") or hasattr(recordings, "to_frame")
 
 
 def _study(
@@ -202,7 +261,8 @@ def _study(
 
 def _bounds(name: str, ends: tuple[Quantity, Quantity], unit: str | None) -> str:
     """A parameter with its bounds as an option has it."""
-    low, high = (_text.words(f"vary.{name}", it, unit) for it in ends)
+    both = _text.pair(f"vary[{name!r}]", ends, "two bounds")
+    low, high = (_text.words(f"vary.{name}", it, unit) for it in both)
     return f"{name}={low}..{high}"
 
 

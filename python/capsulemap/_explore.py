@@ -6,6 +6,7 @@ import threading
 import time
 
 from . import _process
+from ._progress import in_notebook
 from ._saved import Place, Results
 
 PATIENCE = 60.0
@@ -55,11 +56,13 @@ class Page:
         self.close()
 
     def _repr_html_(self) -> str:
+        if not self._command.is_running():
+            return "The page is closed."
         link = f'<a href="{self.address}" target="_blank" rel="noopener">{self.address}</a>'
         return f"The results, in a page of their own: {link} (opens once, in one browser)"
 
     def __repr__(self) -> str:
-        return f"<Page {self.address}>"
+        return f"<Page {self.address}>" if self._command.is_running() else "<Page, closed>"
 
 
 _OPEN: set[Page] = set()
@@ -76,12 +79,3 @@ def explore(results: Results, *, port: int = 0, browser: bool | None = None) -> 
     opens = not in_notebook() if browser is None else browser
     words = ["explore", place.path, *_process.options({"port": port, "no_browser": not opens})]
     return Page(place, words)
-
-
-def in_notebook() -> bool:
-    """Whether a notebook shows what a cell returns."""
-    try:
-        from IPython.core.getipython import get_ipython  # type: ignore[import-not-found, unused-ignore]
-    except ImportError:
-        return False
-    return type(get_ipython()).__name__ == "ZMQInteractiveShell"

@@ -12,8 +12,11 @@ from . import _capsulemap, _process, _text
 from ._errors import StudyError
 from ._recordings import Recording, file_of
 from ._saved import Folder, Place, Results
+from ._tradeoff import TradeOff
 from ._text import Quantity
 
+SAVED_DPI = 600
+"""Dots per inch of what is saved."""
 SHOWN_DPI = 300
 """Dots per inch of what a notebook shows."""
 SHOWN_WIDTH = 150
@@ -64,7 +67,7 @@ class Figure:
             image = file.read()
         # The width of a PNG file is in its first chunk.
         width = int.from_bytes(image[16:20], "big")
-        shown = min(width, 800) if self._draw is None else width * SHOWN_WIDTH // SHOWN_DPI
+        shown = width * SHOWN_WIDTH // (SAVED_DPI if self._draw is None else SHOWN_DPI)
         picture = base64.b64encode(image).decode("ascii")
         return {"image/png": picture, "text/plain": repr(self)}, {"image/png": {"width": shown}}
 
@@ -88,8 +91,8 @@ def figure(
     curves: bool = False,
     branches: bool = True,
     legend: bool = True,
-    hide: Sequence[str] = (),
-    text: Sequence[str] = (),
+    hide: str | Sequence[str] = (),
+    text: str | Sequence[str] = (),
     width: str | float | None = None,
     height: str | float | None = None,
     marker_size: str | float | None = None,
@@ -103,31 +106,38 @@ def figure(
     centre: Mapping[str, Quantity] | None = None,
     contours: Mapping[str, Any] | None = None,
 ) -> Figure:
-    """A figure of results: a dataset of this package, or the path of a file of results.
+    """A figure of results: a dataset of this package, the path of a file of results, or a TradeOff.
 
     ``kind`` is "bifurcation", "map", "basin", "history", "phase-portrait", "spectrum", "section", "settling", "shares", "trade-off",
     "trade-off-maps" or "curves"; ``of`` names the outputs, ``x`` and ``y`` the axes, ``at`` the values at which others are held (several
-    give panels). ``points`` are measured points over a bifurcation diagram: a CSV file or a table with columns in SI units. ``width``,
+    give panels), as ``{"delta": ["1 mm", "2 mm"]}``; ``cycles`` from and to bound a history. ``points`` are measured points over a bifurcation diagram: a CSV file or a table with columns in SI units. ``width``,
     ``height`` and ``marker_size`` are in mm or texts with units; ``limits``, ``scale``, ``unit``, ``label``, ``decimals``, ``colour_map``, ``centre`` and
     ``contours`` map quantities to how they are shown. Raises StudyError where the results do not have what is asked, and MachineError.
     """
+    for name, each in (("at", at), ("unit", unit), ("label", label), ("limits", limits), ("scale", scale)):
+        _text.mapping(name, each, '{"omega": ...}')
+    if not isinstance(kind, str):
+        raise TypeError(f"kind: expected a text, as \"map\", found {kind!r}")
     place = Place(results)
+    if of is None and isinstance(results, TradeOff) and kind.startswith("trade-off"):
+        own_gain = results.told.get("for")
+        of = [results.told["of"]] if own_gain is None else [results.told["of"], own_gain]
     folder = Folder()
     given: dict[str, object] = {
         "kind": kind,
-        "of": _joined([of] if isinstance(of, str) else of),
+        "of": _joined(_text.listed(of)),
         "x": x,
         "y": y,
         "at": [f"{name}={_several(f'at.{name}', it)}" for name, it in (at or {}).items()],
         "sweep": sweep,
         "colour_by": colour_by,
         "title": title,
-        "cycles": _joined(cycles),
+        "cycles": None if cycles is None else _joined(_text.pair("cycles", cycles, "from and to, in cycles")),
         "curves": curves,
         "no_branches": not branches,
         "no_legend": not legend,
-        "hide": _joined(hide or None),
-        "text": list(text),
+        "hide": _joined(_text.listed(hide) or None),
+        "text": _text.listed(text),
         "width": width,
         "height": height,
         "marker_size": marker_size,

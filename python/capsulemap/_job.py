@@ -24,7 +24,7 @@ class Status(NamedTuple):
 
 
 class Job:
-    """A study that is computed in the background, in threads that end with it, or once nobody holds it any more."""
+    """A study that is computed in the background. Its threads end with it, when it is cancelled, or when no variable holds it any more."""
 
     def __init__(self, job: _capsulemap.Job) -> None:
         self._job = job
@@ -56,7 +56,7 @@ class Job:
         return Status("cancelled" if self._dataset is None else "done", done, cases)
 
     def partial(self) -> xarray.Dataset:
-        """What is done by now: cases that are not have the outcome "missing", and NaN or 0 in place of numbers.
+        """What is done by now: cases not yet done have the outcome "missing", and NaN or 0 in place of numbers.
 
         Attractors, and what is inferred where boundaries alone are computed, come at the end, and are not in it before; of a run that
         is kept in a file it is what its blocks hold. Raises StudyError where such a run has no block yet.
@@ -114,12 +114,13 @@ def waited(job: Job, *, has_cases: bool) -> xarray.Dataset:
 
 def _interrupted(job: Job) -> xarray.Dataset:
     """What is done of a job that was interrupted."""
-    done, cases = job._job.progress()
+    _, cases = job._job.progress()
     try:
         dataset = job.partial()
     except StudyError:
         # No block of a run that is kept is whole yet.
-        raise KeyboardInterrupt from None
+        raise KeyboardInterrupt("no block was whole, so that nothing is kept") from None
+    done = int((dataset["outcome"] >= 0).sum())
     told = f"interrupted: {done} of {cases} cases are done, the others have the outcome \"missing\""
     warn(told, PartialResultWarning)
     return dataset

@@ -13,7 +13,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Orbit:
-    """What a motion settles to."""
+    """What a motion settles to.
+
+    ``outcome``: "periodic", "chaotic", "quasi-periodic", "undecided" or "failed"; ``period`` in cycles, 0 where it does not repeat;
+    ``certificate``: how the period is proven ("newton", "grazing", "neutral", "neighbourhood") or "none"; ``multipliers`` of the period;
+    ``outputs`` by name in SI units, and ``units`` of them; ``section``: the coordinates of the section points by name, one number for each cycle (as
+    many as the period, of a motion that does not repeat as many as ``protocol={"points": ...}``); ``failure``: why it could not be followed.
+    """
 
     outcome: str
     """"periodic", "chaotic", "quasi-periodic", "undecided" or "failed"."""

@@ -13,6 +13,7 @@ from typing import IO, Any
 
 from . import _capsulemap
 from ._errors import Fault, MachineError, StudyError
+from ._progress import Progress
 
 HELD = "CAPSULEMAP_HELD"
 """Set in the environment of a command that ends once its standard input is closed."""
@@ -22,6 +23,10 @@ PATIENCE = 0.05
 """How long a command that is told to end is waited for [s]."""
 REQUEST = 2
 """The exit code for a mistake in what was asked."""
+
+
+PROGRESS = re.compile(r"\d[\d ]*/\d[\d ]* ")
+"""How lines begin that tell how far a command is."""
 
 
 class Command:
@@ -48,15 +53,19 @@ class Command:
             reader.start()
 
     def wait(self) -> int:
-        """Its exit code, once it has ended; an exception, as that of Ctrl-C, ends it."""
+        """Its exit code, once it has ended; how far it is is shown meanwhile, and an exception, as that of Ctrl-C, ends it."""
+        progress = Progress()
         try:
             for reader in self._readers:
                 while reader.is_alive():
                     reader.join(BETWEEN_SIGNALS)
+                    progress.tell(self.said[-1] if self.said else "")
+            progress.end()
             while self._process.poll() is None:
                 threading.Event().wait(BETWEEN_SIGNALS)
         except BaseException:
             self.end()
+            progress.end()
             raise
         self._close()
         return self._process.returncode
@@ -92,7 +101,8 @@ def asked(
     code = command.wait()
     if code != 0:
         raise error(code, command.said)
-    return "\n".join(command.printed), [line.removeprefix("note: ") for line in command.said]
+    notes = [line.removeprefix("note: ") for line in command.said if not PROGRESS.match(line)]
+    return "\n".join(command.printed), notes
 
 
 def asked_for_json(
@@ -125,6 +135,8 @@ def threads() -> int | None:
 
 def error(code: int, said: Sequence[str]) -> Exception:
     """What a command that failed has said, as an exception."""
+    if usage := _of_usage(said):
+        return StudyError(str(usage), [usage])
     told = [line.removeprefix("capsulemap: ") for line in said[_beginning(said) :]]
     if code != REQUEST:
         return MachineError("\n".join(told) or f"the command ended with {code}")
@@ -144,6 +156,20 @@ def error(code: int, said: Sequence[str]) -> Exception:
     return StudyError("\n".join(told), faults)
 
 
+def _of_usage(said: Sequence[str]) -> Fault | None:
+    """What is wrong with the form of an option, in words for an argument of Python."""
+    lines = [line.strip() for line in said]
+    begins = next((place for place, line in enumerate(lines) if line.startswith("error: ")), None)
+    if begins is None:
+        return None
+    message = lines[begins].removeprefix("error: ")
+    more = [line.strip("[]") for line in lines[begins + 1 :] if line.startswith(("[possible", "tip:"))]
+    key = ""
+    if found := re.match(r"invalid value '(.*)' for '--([\w-]+)[^']*'(?:: )?(.*)", message):
+        key, message = found[2].replace("-", "_"), f"{found[1]!r} is not allowed" + (f": {found[3]}" if found[3] else "")
+    return Fault(None, key, "; ".join([message, *more]))
+
+
 def _beginning(said: Sequence[str]) -> int:
     """Where the words on the failure begin, behind notes."""
     begins = (place for place, line in enumerate(said) if line.startswith("capsulemap: "))
@@ -154,7 +180,9 @@ def _environment() -> dict[str, str]:
     """An environment in which this package is found, wherever it was imported from."""
     here = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     path = os.pathsep.join(it for it in (here, os.environ.get("PYTHONPATH")) if it)
-    return {**os.environ, "PYTHONPATH": path, HELD: "1"}
+    # A notebook asks for colours, which would stand in messages.
+    plain = {"NO_COLOR": "1", "CLICOLOR_FORCE": "0", "FORCE_COLOR": "0"}
+    return {**os.environ, **plain, "PYTHONPATH": path, HELD: "1"}
 
 
 def _read(pipe: IO[bytes], lines: list[str]) -> None:

@@ -6,8 +6,6 @@ import sys
 import time
 from typing import Any
 
-from ._explore import in_notebook
-
 FIRST_SHOWN = 1.0
 """Time before anything is shown [s]."""
 INTERVAL = 0.5
@@ -28,6 +26,7 @@ class Progress:
     def __init__(self) -> None:
         self._begun = time.monotonic()
         self._handle: Any = None
+        self._told = 0.0
         self._width = 0
         self._in_notebook = in_notebook()
         by_itself = self._in_notebook or sys.stderr is not None and sys.stderr.isatty()
@@ -45,6 +44,13 @@ class Progress:
         if 0 < done < cases:
             told += f", about {_time(taken * (cases - done) / done)} left"
         self._put(told)
+
+    def tell(self, line: str) -> None:
+        """Shows what a command says of itself."""
+        now = time.monotonic()
+        if self.is_shown and line and now - max(self._told, self._begun + FIRST_SHOWN) >= INTERVAL:
+            self._told = now
+            self._put(line)
 
     def end(self) -> None:
         """Takes away what was shown."""
@@ -66,6 +72,15 @@ class Progress:
             self._handle = shown({"text/plain": told}, raw=True, display_id=True)
         else:
             self._handle.update({"text/plain": told}, raw=True)
+
+
+def in_notebook() -> bool:
+    """Whether a notebook shows what a cell returns."""
+    try:
+        from IPython.core.getipython import get_ipython  # type: ignore[import-not-found, unused-ignore]
+    except ImportError:
+        return False
+    return type(get_ipython()).__name__ == "ZMQInteractiveShell"
 
 
 def _time(seconds: float) -> str:

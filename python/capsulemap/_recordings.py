@@ -7,6 +7,8 @@ import os
 from collections.abc import Mapping
 from typing import Any, Union
 
+from ._text import labelled_unit
+
 Recording = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
 """The path of a CSV file, or columns by name: a mapping of arrays, or a DataFrame of pandas or polars."""
 
@@ -27,19 +29,22 @@ def file_of(
     path = os.path.join(folder, f"{name}.csv")
     with open(path, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([_header(column, units) for column in columns])
+        writer.writerow([_header(column, units, labelled_unit(recording[column])) for column in columns])
         writer.writerows(zip(*columns.values()))
     # Messages name it as it is called here.
     return os.path.basename(path)
 
 
-def _header(column: str, units: Mapping[str, str | None]) -> str:
-    unit = units.get(column)
+def _header(column: str, units: Mapping[str, str | None], own: str | None) -> str:
+    unit = own if own is not None and column in units else units.get(column)
     return column if unit is None else f"{column} [{unit}]"
 
 
 def _columns(recording: Any) -> dict[str, list[str]]:
     """The columns of a table, with all digits of their numbers."""
+    if hasattr(recording, "data_vars") or hasattr(recording, "to_frame"):
+        kind = type(recording).__name__
+        raise TypeError(f"expected a mapping of columns or a DataFrame, found {kind}: {{\"t\": ..., \"x2\": ...}} of its parts is one")
     names = recording.keys() if isinstance(recording, Mapping) else getattr(recording, "columns", None)
     if names is None:
         kind = type(recording).__name__
@@ -48,6 +53,8 @@ def _columns(recording: Any) -> dict[str, list[str]]:
 
 
 def _listed(column: Any) -> list[Any]:
+    if hasattr(column, "dims") and hasattr(column, "values"):
+        column = column.values
     for method in ("tolist", "to_list"):
         if hasattr(column, method):
             return list(getattr(column, method)())

@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from . import _capsulemap
+from ._errors import StudyError
 
 if TYPE_CHECKING:
     import numpy
@@ -16,8 +17,14 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:  # noqa: A001
     """The results in a file of the program, all in memory.
 
     The same as ``xarray.open_dataset(path).load()``, without a library that reads HDF5 in Python, and with a check of the file's
-    checksum. Raises StudyError where it is no file of results, and MachineError where it cannot be read.
+    checksum. Raises StudyError where it is no file of results or not there, and MachineError where it cannot be read.
     """
+    blocks = os.path.splitext(os.fspath(path))[0] + ".blocks"
+    if not os.path.exists(path):
+        told = "there is no such file"
+        if os.path.isdir(blocks):
+            told = f"is not whole yet: blocks of it are in {blocks}; the same call with keep= goes on"
+        raise StudyError(f"{os.fspath(path)}: {told}")
     return dataset(_capsulemap.read_results(os.fspath(path)))
 
 
@@ -63,6 +70,8 @@ def names(category: xarray.DataArray) -> xarray.DataArray:
     """
     import numpy
 
+    if not hasattr(category, "attrs") or not hasattr(category, "dims") or hasattr(category, "data_vars"):
+        raise TypeError(f"expected a variable, as results.outcome, found {type(category).__name__}")
     own = category.attrs
     if "flag_values" not in own or "flag_meanings" not in own:
         raise ValueError(f"{category.name}: is no category, as it has no flag_meanings")

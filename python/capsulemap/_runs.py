@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from numbers import Integral
 from typing import TYPE_CHECKING, Any, Literal, overload
 
-from . import _results, _study
+from . import _results, _study, _text
 from ._axis import Draws
 from ._built import Built
 from ._job import Job
@@ -36,15 +37,18 @@ def simulate(
     """
     study = Built(system, start=start, protocol=protocol).study()
     _study.tell(study)
-    if isinstance(cycles, bool) or not isinstance(cycles, int) or cycles < 0:
-        raise ValueError(f"cycles: expected a whole number, 0 or more, found {cycles!r}")
-    return _results.dataset(study.simulate(cycles))
+    if isinstance(cycles, bool) or not isinstance(cycles, Integral) or cycles < 0:
+        raise _text.unfit("cycles", f"expected a whole number, 0 or more, found {cycles!r}")
+    return _results.dataset(study.simulate(int(cycles)))
 
 
 def orbit(
     system: _Parametric, *, start: Start | None = None, protocol: Mapping[str, object] | None = None
 ) -> Orbit:
-    """What a motion settles to from its start. Raises StudyError."""
+    """Follows the motion until it settles, and returns its orbit: outcome, period, multipliers, outputs.
+
+    ``start`` has coordinates (of a capsule "r" [m], "y1", "y2" [m/s]) and "phase" [rad]; what is missing is zero. Raises StudyError.
+    """
     built = Built(system, start=start, protocol=protocol)
 
     def history(cycles: int, samples_per_cycle: int, begin: str) -> xarray.Dataset:
@@ -77,11 +81,11 @@ def sweep(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: Sequence[str] | None = None,
+    outputs: str | Sequence[str] | None = None,
     start: Start | None = None,
     inherit: str | None = None,
-    directions: Sequence[str] | None = None,
-    draws: Draws | None = None,
+    directions: str | Sequence[str] | None = None,
+    draws: Draws | int | None = None,
     refine: Mapping[str, Quantity] | None = None,
     protocol: Mapping[str, object] | None = None,
     history: Mapping[str, object] | None = None,
@@ -97,11 +101,11 @@ def sweep(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: Sequence[str] | None = None,
+    outputs: str | Sequence[str] | None = None,
     start: Start | None = None,
     inherit: str | None = None,
-    directions: Sequence[str] | None = None,
-    draws: Draws | None = None,
+    directions: str | Sequence[str] | None = None,
+    draws: Draws | int | None = None,
     refine: Mapping[str, Quantity] | None = None,
     protocol: Mapping[str, object] | None = None,
     history: Mapping[str, object] | None = None,
@@ -116,11 +120,11 @@ def sweep(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: Sequence[str] | None = None,
+    outputs: str | Sequence[str] | None = None,
     start: Start | None = None,
     inherit: str | None = None,
-    directions: Sequence[str] | None = None,
-    draws: Draws | None = None,
+    directions: str | Sequence[str] | None = None,
+    draws: Draws | int | None = None,
     refine: Mapping[str, Quantity] | None = None,
     protocol: Mapping[str, object] | None = None,
     history: Mapping[str, object] | None = None,
@@ -129,9 +133,9 @@ def sweep(
     overwrite: bool = False,
     blocking: bool = True,
 ) -> xarray.Dataset | Job:
-    """What every case of a grid settles to, or of draws.
+    """Computes the settled motion of every case of a grid, or of random draws.
 
-    ``axes`` maps parameters ("omega") and coordinates of the start ("start_r", "start_phase") to their values, slowest first: an
+    ``outputs`` are names of ``system.names["outputs"]``, all of them unless given. ``axes`` maps parameters ("omega") and coordinates of the start ("start_r", "start_phase") to their values, slowest first: an
     array or list of numbers in SI units or texts with units, or an Axis. With ``draws`` each axis is an Axis or a pair, the range.
     With ``inherit`` each case starts where its neighbour along that axis has settled, in each of the ``directions`` ("upward",
     "downward"). ``refine`` maps outputs to the most by which neighbours may differ: cases are computed only where they do.
@@ -162,9 +166,9 @@ def basin(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: Sequence[str] | None = None,
+    outputs: str | Sequence[str] | None = None,
     start: Start | None = None,
-    draws: Draws | None = None,
+    draws: Draws | int | None = None,
     refine: bool = False,
     early_decision: bool = True,
     protocol: Mapping[str, object] | None = None,
@@ -180,9 +184,9 @@ def basin(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: Sequence[str] | None = None,
+    outputs: str | Sequence[str] | None = None,
     start: Start | None = None,
-    draws: Draws | None = None,
+    draws: Draws | int | None = None,
     refine: bool = False,
     early_decision: bool = True,
     protocol: Mapping[str, object] | None = None,
@@ -197,9 +201,9 @@ def basin(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: Sequence[str] | None = None,
+    outputs: str | Sequence[str] | None = None,
     start: Start | None = None,
-    draws: Draws | None = None,
+    draws: Draws | int | None = None,
     refine: bool = False,
     early_decision: bool = True,
     protocol: Mapping[str, object] | None = None,
@@ -214,7 +218,11 @@ def basin(
     variables over ``attractor_index`` tell of each motion: its period, multipliers, outputs and share of the starts. With ``refine``
     only starts beside the boundaries are computed. Returns and raises as ``sweep`` does.
     """
-    keys: dict[str, object] = {"early_decision": early_decision}
+    _text.mapping("axes", axes, '{"start_r": capsulemap.Axis("-4 mm", "4 mm", 50)}')
+    if isinstance(system, _Parametric):
+        for name in set(axes) & set(system._description()["parameters"]):
+            raise _text.unfit(f"axes[{name!r}]", "a basin has starts alone on its axes; sweep takes parameters, too")
+    keys: dict[str, object] = {} if early_decision else {"early_decision": False}
     if refine:
         keys["refine"] = True
     built = Built(
@@ -235,12 +243,12 @@ def attractors(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: Sequence[str] | None = None,
+    outputs: str | Sequence[str] | None = None,
     start: Start | None = None,
-    draws: Draws | None = None,
+    draws: Draws | int | None = None,
     protocol: Mapping[str, object] | None = None,
 ) -> xarray.Dataset:
-    """The motions on which starts end, without what is known of each start: the part of a ``basin`` over ``attractor_index``.
+    """The motions that starts lead to: as ``basin``, but only the table of motions over ``attractor_index``, not the result of each start.
 
     The starts are those of ``axes``, as of a basin, or drawn from their ranges. Each motion has its outcome, period, multipliers, section points,
     outputs (SI) and share of the starts. Raises StudyError and MachineError.
@@ -261,7 +269,7 @@ def branch(
     second: tuple[str, Quantity, Quantity] | None = None,
     longest_step: float = 0.02,
     most_points: int = 2000,
-    outputs: Sequence[str] | None = None,
+    outputs: str | Sequence[str] | None = None,
     protocol: Mapping[str, object] | None = None,
     title: str = "",
 ) -> xarray.Dataset:
@@ -273,7 +281,7 @@ def branch(
     ``branch_point`` tell of each orbit, those over ``special_point`` of folds, period doublings, grazings and the like. Raises
     StudyError and MachineError.
     """
-    low, high = ends
+    low, high = _text.pair("ends", ends, "two ends of the parameter")
     keys: dict[str, object] = {
         "name": title or "branch",
         "along": along,

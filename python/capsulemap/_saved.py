@@ -6,7 +6,7 @@ import os
 import shutil
 import tempfile
 import weakref
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Union, cast
 
 from . import _capsulemap
 from ._errors import StudyError
@@ -14,8 +14,10 @@ from ._errors import StudyError
 if TYPE_CHECKING:
     import xarray
 
-Results = Union["xarray.Dataset", str, "os.PathLike[str]"]
-"""A dataset of this package, or the path of a file of results."""
+    from ._tradeoff import TradeOff
+
+Results = Union["xarray.Dataset", str, "os.PathLike[str]", "TradeOff"]
+"""A dataset of this package, the path of a file of results, or a trade-off, with what its searches have found."""
 
 
 def save(
@@ -26,6 +28,8 @@ def save(
     Variables of your own are kept; attributes of variables beside ``units``, ``long_name`` and the flags are not. Raises StudyError
     where cases or parts were taken away, or a file is there and not to be overwritten, and MachineError where it cannot be written.
     """
+    if not hasattr(results, "data_vars"):
+        raise TypeError(f"expected a Dataset, found {type(results).__name__}")
     if not overwrite and os.path.lexists(path):
         raise StudyError(f"{os.fspath(path)}: is there already; another path, or overwrite=True")
     _capsulemap.write_results(os.fspath(path), _raw(results))
@@ -44,6 +48,12 @@ class Place:
 
     def __init__(self, results: Results) -> None:
         self._folder: Folder | None = None
+        self._other: Place | None = None
+        self.path: str
+        other = getattr(results, "place", None)
+        if isinstance(other, Place):
+            self._other, self.path = other, other.path
+            return
         if isinstance(results, (str, os.PathLike)):
             self.path = os.path.abspath(results)
             return
@@ -51,7 +61,7 @@ class Place:
             raise TypeError(f"expected a Dataset or a path, found {type(results).__name__}")
         self._folder = Folder()
         self.path = os.path.join(self._folder.name, "results.h5")
-        save(results, self.path)
+        save(cast("xarray.Dataset", results), self.path)
 
 
 def _raw(results: xarray.Dataset) -> dict[str, Any]:

@@ -21,7 +21,7 @@ Keep = Union[str, "os.PathLike[str]", None]
 
 
 class Study:
-    """A study that obeys all rules: cases, branches, or both (studies/README.md)."""
+    """A checked study: what to compute, cases, branches, or both (studies/README.md)."""
 
     def __init__(self, study: _capsulemap.Study) -> None:
         self._study = study
@@ -71,7 +71,7 @@ class Study:
         """Computes its cases, and its branches where it has some: the dataset that its file holds.
 
         With ``keep`` the results go to the file at that path ("NAME.h5") as they come: what a run that was interrupted has done stays
-        beside it, and the same call resumes it; ``overwrite`` replaces the results of another study there. Ctrl-C returns what is done,
+        beside it, block by block, in a folder NAME.blocks, and the same call resumes it; ``overwrite`` replaces the results of another study there. Ctrl-C returns what is done,
         with a PartialResultWarning. With ``blocking=False`` it is computed in the background.
         """
         branches = self._study.branches > 0
@@ -108,6 +108,8 @@ def run(
     """Computes what is wanted of a study."""
     tell(study)
     path = None if kept.path is None else os.path.abspath(kept.path)
+    if not isinstance(blocking, bool):
+        raise TypeError(f"blocking: expected True or False, found {blocking!r}")
     job = Job(study.begin(cases, branches, path, kept.overwrite))
     return waited(job, has_cases=cases) if blocking else job
 

@@ -8,6 +8,7 @@ from functools import lru_cache
 from typing import Any, TypeVar
 
 from . import _capsulemap, _text
+from ._errors import StudyError
 from ._text import Quantity
 
 Self = TypeVar("Self", bound="_Parametric")
@@ -37,6 +38,37 @@ class _Parametric:
     def replace(self: Self, **values: Quantity) -> Self:
         """The same with other values; ``None`` takes a value away."""
         return self._with({**self._given, **values})
+
+    @property
+    def names(self) -> Mapping[str, Mapping[str, str]]:
+        """What there is to ask for, by name: "parameters", "choices", "starts" (keys of a start) and "outputs", each with its unit, its value
+        where none is given, and its meaning."""
+        told = self._description()
+        parameters = {
+            name: f"[{told['parameters'][name] or '1'}] {meaning}{'' if usual is None else f', {usual:g} unless given'}"
+            for name, (usual, meaning) in told["told"].items()
+        }
+        starts = {
+            name.removeprefix("start_"): f"[{unit or '1'}], {name} on an axis"
+            for name, unit in told["coordinates"].items()
+            if name.startswith("start_")
+        }
+        outputs = {name: f"[{unit}] {meaning}" for name, (unit, meaning) in told["outputs"].items()}
+        choices = {name: " or ".join(options) for name, options in told["choices"].items()}
+        return {"parameters": parameters, "choices": choices, "starts": starts, "outputs": outputs}
+
+    def _check_names(self) -> None:
+        """Sure that a system has the parameters and choices that are given; else all that is wrong with what is given is told."""
+        known = self._description()
+        if all(name in known["parameters"] or name in known["choices"] for name in self._given):
+            return
+        try:
+            _capsulemap.Study.built(self.to_toml(), "the parameters")
+        except StudyError as error:
+            # What is not given may come as an axis.
+            own = [fault for fault in error.faults if fault.key.removeprefix("parameters.") in self._given]
+            told = "".join(f"\n  {fault}" for fault in own)
+            raise StudyError(f"the parameters: {len(own)} faults{told}", own) from None
 
     def to_toml(self) -> str:
         """The system as the text of a study file, with numbers in SI units."""
@@ -87,7 +119,8 @@ class Capsule(_Parametric):
 
     Each value is a number in SI units ([N], [m], [N/m], [rad/s], ...), a text with a unit ("2.42 kN/m"), or the name of a choice
     (``drive="square"``). What is not given is as in Table 1 of the paper; ``omega``, ``p_d``, ``k2`` and ``delta`` must be given, here
-    or on an axis. ``model="capsule-over-folds"`` is the capsule over folds. studies/README.md lists all names.
+    or on an axis. ``model="capsule-over-folds"`` is the capsule over folds. ``names`` has all names with units and meanings. Raises
+    StudyError where a name is unknown.
     """
 
     __slots__ = ("_model",)
@@ -96,6 +129,7 @@ class Capsule(_Parametric):
     def __init__(self, *, model: str = "capsule", **values: Quantity) -> None:
         super().__init__(values)
         object.__setattr__(self, "_model", model)
+        self._check_names()
 
     @property
     def model(self) -> str:
@@ -130,6 +164,7 @@ class Oscillator(_Parametric):
         super().__init__(given)
         object.__setattr__(self, "_name", name)
         object.__setattr__(self, "_tables", tables)
+        self._check_names()
 
     @staticmethod
     def from_toml(source: str | os.PathLike[str], **values: Quantity) -> Oscillator:

@@ -33,8 +33,18 @@ def quantity(key: str, value: Quantity, unit: str | None) -> str:
         return _foreign(value, unit)
     if isinstance(value, bool) or not _is_number(value):
         what = "a number in SI units or a text with a unit"
-        raise _unfit(key, f"expected {what}, found {type(value).__name__} {value!r}")
+        raise unfit(key, f"expected {what}, found {type(value).__name__} {value!r}")
+    own = labelled_unit(value)
+    if own is not None:
+        return quoted(f"{number(value)} {own}")
     return number(value) if unit is None else quoted(f"{number(value)} {unit}")
+
+
+def labelled_unit(value: object) -> str | None:
+    """The unit that an array of xarray is labelled with, if any."""
+    own = getattr(value, "attrs", None)
+    unit = own.get("units") if isinstance(own, Mapping) else None
+    return unit if isinstance(unit, str) and unit != "1" else None
 
 
 def words(key: str, value: Quantity, unit: str | None = None) -> str:
@@ -43,12 +53,20 @@ def words(key: str, value: Quantity, unit: str | None = None) -> str:
         return value
     if hasattr(value, "magnitude") and hasattr(value, "units"):
         return str(json.loads(_foreign(value, None)))
+    own = labelled_unit(value)
+    if own is not None:
+        return f"{number(value)} {own}"
     written = quantity(key, value, None)
     return written if unit is None else f"{written} {unit}"
 
 
 def quantities(key: str, values: Iterable[Quantity], unit: str | None) -> str:
-    """A list of quantities."""
+    """A list of quantities, texts with units or numbers, but not both."""
+    values = list(values)
+    texts = [it for it in values if isinstance(it, str)]
+    if unit is not None and 0 < len(texts) < len(values):
+        told = "numbers in SI units and texts with units are mixed; a range with so many points is capsulemap.Axis(start, stop, points)"
+        raise unfit(key, told)
     return "[" + ", ".join(quantity(key, value, unit) for value in values) + "]"
 
 
@@ -66,7 +84,7 @@ def plain(key: str, value: object) -> str:
         return inline({name: plain(f"{key}.{name}", of) for name, of in value.items()})
     if isinstance(value, Iterable):
         return "[" + ", ".join(plain(key, each) for each in value) + "]"
-    raise _unfit(key, f"expected a number, a text, a list or a table, found {type(value).__name__}")
+    raise unfit(key, f"expected a number, a text, a list or a table, found {type(value).__name__}")
 
 
 def inline(pairs: Mapping[str, str]) -> str:
@@ -99,6 +117,25 @@ def _foreign(value: Any, unit: str | None) -> str:
     return magnitude if unit is None and words in ("", "dimensionless") else quoted(f"{magnitude} {words}")
 
 
-def _unfit(key: str, message: str) -> StudyError:
+def mapping(key: str, value: object, example: str) -> None:
+    """Sure that an argument is a mapping, or nothing."""
+    if value is not None and not isinstance(value, Mapping):
+        raise TypeError(f"{key}: expected a mapping, as {example}, found {type(value).__name__} {value!r}")
+
+
+def pair(key: str, value: object, what: str) -> tuple[Any, Any]:
+    """An argument of two parts."""
+    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable) or len(parts := list(value)) != 2:
+        raise TypeError(f"{key}: expected {what}, found {value!r}")
+    return parts[0], parts[1]
+
+
+def listed(value: Any) -> list[Any] | None:
+    """Several of something; a text alone is one."""
+    return None if value is None else [value] if isinstance(value, str) else list(value)
+
+
+def unfit(key: str, message: str) -> StudyError:
+    """An error of one key."""
     fault = Fault(None, key, message)
     return StudyError(f"the study: 1 fault\n  {fault}", [fault])

@@ -13,13 +13,36 @@ from ._text import Quantity
 if TYPE_CHECKING:
     import xarray
 
+NAMES = ("fastest_within_budget", "most_gain_within_budget", "least_for_speed", "least_cost_for_gain")
+"""The optima that there may not be."""
+NOTHING: dict[str, Any] = {}
+"""A motion that there is not."""
+UNDER_TOLERANCES = {
+    "draws": "number of draws within the tolerances",
+    "kept": "share of the draws that keep the period",
+    "meet_conditions": "number of draws that meet the conditions",
+    "within_budget": "number of draws within the budget",
+    "meet_conditions_within_budget": "number of draws that meet the conditions within the budget",
+    "speed_of_slowest_5_percent": "speed that 95 of 100 draws reach (SI)",
+    "gain_of_least_5_percent": "gain that 95 of 100 draws reach (SI)",
+    "price_of_dearest_5_percent": "cost that 95 of 100 draws do not exceed (SI)",
+}
+"""What tolerances leave of a motion."""
 PARTS = ("parameters", "start", "margins", "robustness", "standard_errors")
 """What a motion has several numbers of, besides slopes."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class TradeOff:
-    """The trade-off of a gain, as the progression speed, against a cost, as the power."""
+    """The trade-off of a gain, as the progression speed, against a cost, as the power.
+
+    ``front``: a dataset over ``point``, the motions of which none has more gain for less cost, with parameters, start, gain, cost and what
+    is known of each, in SI units; ``sensitivity`` and ``sensitivity_of_COST`` over ``parameter`` are relative slopes (1 % of a parameter
+    changes the output by so many %), ``stationarity`` what a step in the parameters might still bring (0 at an optimum), ``held_by`` the
+    bounds that hold it. ``optima``: the same over ``optimum`` by name; NaN where there is none. ``top``: the same of the motions with the
+    most gain. ``left_out``: why cases take no part, with their number. ``told``: all that the command line tells, ``margins`` of each
+    motion among it. ``notes``: what it says beside. ``figure(this, "trade-off")`` draws it with what its searches have found.
+    """
 
     front: xarray.Dataset
     """The motions of which none has more gain for less cost, over ``point``: parameters, start, gain, cost and what is known of each, in
@@ -36,6 +59,16 @@ class TradeOff:
     """All that the command line tells with ``--json``."""
     notes: list[str]
     """What it says beside, in sentences."""
+    place: Place
+    """The file of the results, beside which searches are kept; of a dataset it is there as long as this object."""
+
+    def __repr__(self) -> str:
+        gain, cost = self.told.get("for", "progression_speed"), self.told["of"]
+        told = [f"<TradeOff of {gain} against {cost}: {self.front.sizes['point']} motions on the front>"]
+        for name in self.optima.optimum.values.tolist():
+            motion = self.optima.sel(optimum=name)
+            told.append(f"  {name}: {gain} = {motion[gain].item():.6g}, {cost} = {motion[cost].item():.6g}")
+        return "\n".join(told)
 
 
 def tradeoff(
@@ -65,8 +98,10 @@ def tradeoff(
     parameters that vary. ``tolerances`` ({"k2": 0.05}, of the value) draw parameters about each motion; ``margins`` tell how far each
     parameter may go. Quantities are numbers in SI units or texts with units.
 
-    Of a file, what a refinement finds is kept beside it, as by the command line. Ctrl-C ends it. Raises StudyError and MachineError.
+    What a refinement finds is kept beside the file, as by the command line, so that the same question is answered at once; of a dataset
+    that holds as long as the TradeOff, which ``results`` may be, too. Ctrl-C ends it. Raises StudyError and MachineError.
     """
+    _text.mapping("tolerances", tolerances, '{"k2": 0.05}')
     place = Place(results)
     given = {
         "of": of,
@@ -87,8 +122,9 @@ def tradeoff(
     }
     told, notes = _process.asked_for_json(["tradeoff", place.path, *_process.options(given)])
     model = _capsulemap.describe(results=place.path)
-    # The others are limits, or optima that there are not.
-    optima = [name for name, it in told.items() if isinstance(it, Mapping) and "parameters" in it]
+    # The others are limits, which have names of their own.
+    optima = [name for name, it in told.items() if it is None and name in NAMES or isinstance(it, Mapping) and "parameters" in it]
+    notes += [f"{name}: there is no such motion" for name in optima if told[name] is None]
     return TradeOff(
         front=_table(told["front"], "point", range(len(told["front"])), model),
         optima=_table([told[name] for name in optima], "optimum", optima, model),
@@ -96,6 +132,7 @@ def tradeoff(
         left_out=told["left_out"],
         told=told,
         notes=notes,
+        place=place,
     )
 
 
@@ -117,19 +154,20 @@ def _table(
     import xarray
 
     dataset = xarray.Dataset(coords={along: list(names)})
-    if not rows:
+    first = next(filter(None, rows), None)
+    if first is None:
         return dataset
-    first = rows[0]
+    rows = [row or NOTHING for row in rows]
     for group in ("parameters", "start"):
         for name in first[group]:
             unit = {**model["coordinates"], **model["parameters"]}.get(name)
-            values = [row[group].get(name, numpy.nan) for row in rows]
+            values = [row.get(group, NOTHING).get(name, numpy.nan) for row in rows]
             dataset[name] = (along, numpy.array(values, float), {"units": unit or "1"})
     for name in first:
         if name not in PARTS and not name.startswith("sensitivity"):
             values = [row.get(name) for row in rows]
             dataset[name] = (along, *_column(name, values, model["outputs"]))
-    _add_parts(dataset, rows, along)
+    _add_parts(dataset, rows, along, [name for name in first if name.startswith("sensitivity")])
     return dataset
 
 
@@ -148,7 +186,9 @@ def _column(
     return numpy.array(numbers), {"units": unit, "long_name": meaning}
 
 
-def _add_parts(dataset: xarray.Dataset, rows: Sequence[Mapping[str, Any]], along: str) -> None:
+def _add_parts(
+    dataset: xarray.Dataset, rows: Sequence[Mapping[str, Any]], along: str, slopes: Sequence[str]
+) -> None:
     """Adds what a motion has several numbers of: errors, what tolerances do, slopes."""
     import numpy
 
@@ -158,9 +198,9 @@ def _add_parts(dataset: xarray.Dataset, rows: Sequence[Mapping[str, Any]], along
 
     for part, ending in (("standard_errors", "_standard_error"), ("robustness", "_under_tolerances")):
         for name in dict.fromkeys(name for row in rows for name in row.get(part) or ()):
-            dataset[name + ending] = (along, column(part, name))
-    slopes = [name for name in rows[0] if name.startswith("sensitivity")]
-    parameters = list(dict.fromkeys(name for part in slopes for row in rows for name in row[part] or ()))
+            label = {"long_name": UNDER_TOLERANCES.get(name, name.replace("_", " "))}
+            dataset[name + ending] = (along, column(part, name), label)
+    parameters = list(dict.fromkeys(name for part in slopes for row in rows for name in row.get(part) or ()))
     for part in slopes:
         values = numpy.stack([column(part, name) for name in parameters], axis=-1) if parameters else None
         if values is not None:

@@ -14,6 +14,7 @@ import threading
 import time
 import unittest
 import urllib.request
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -81,15 +82,41 @@ class TradeOffs(unittest.TestCase):
         plain = capsulemap.tradeoff(self.results)
         refined = capsulemap.tradeoff(self.results, refine=True, starts=8)
         self.assertGreater(refined.front.sizes["point"], plain.front.sizes["point"])
+        # The same question is answered from what was found, and drawn with it.
+        begun = time.monotonic()
+        again = capsulemap.tradeoff(refined, refine=True, starts=8)
+        self.assertEqual(again.told["front"], refined.told["front"])
+        print(f"the same trade-off again took {time.monotonic() - begun:.1f} s", file=sys.stderr)
+        self.assertIn("motions on the front", repr(refined))
+        both = [capsulemap.figure(it, "trade-off", of="power") for it in (refined, self.results)]
+        self.assertNotEqual(*(Path(it._file("svg")).read_text(encoding="utf-8") for it in both))
         fastest = [float(it.optima.sel(optimum="fastest").progression_speed) for it in (plain, refined)]
         self.assertGreaterEqual(abs(fastest[1]), abs(fastest[0]))
+
+    def test_a_budget_is_spent_to_its_end(self) -> None:
+        spent = capsulemap.tradeoff(self.results, refine=True, starts=8, budget="300 mW")
+        bounded = capsulemap.tradeoff(self.results, refine=True, starts=8, where="power < 300 mW")
+        within = spent.optima.sel(optimum="fastest_within_budget")
+        self.assertLessEqual(float(within.power), 0.3)
+        self.assertGreater(float(within.power), 0.3 * (1 - 1e-6))
+        best = float(bounded.optima.sel(optimum="fastest").progression_speed)
+        self.assertGreater(float(within.progression_speed), best * (1 - 1e-6))
+        none = capsulemap.tradeoff(self.results, budget="1 uW")
+        self.assertTrue(math.isnan(float(none.optima.sel(optimum="fastest_within_budget").progression_speed)))
+        self.assertIn("fastest_within_budget: there is no such motion", none.notes)
 
     def test_all_faults_are_told_by_their_keys(self) -> None:
         with self.assertRaises(StudyError) as caught:
             capsulemap.tradeoff(self.results, budget="3 kg", tolerances={"omga": 0.1})
         self.assertEqual([it.key for it in caught.exception.faults], ["budget", "tolerances"])
-        with self.assertRaisesRegex(StudyError, "either"):
+        with self.assertRaises(StudyError) as caught:
             capsulemap.tradeoff(self.results, direction="sideways")
+        fault = caught.exception.faults[0]
+        self.assertEqual(fault.key, "direction")
+        self.assertIn("either", fault.message)
+        self.assertNotIn("\x1b", str(caught.exception))
+        with self.assertRaisesRegex(StudyError, "k3: the study gives it no value"):
+            capsulemap.tradeoff(self.results, tolerances={"k3": 0.1})
         with self.assertRaises((StudyError, capsulemap.MachineError)):
             capsulemap.tradeoff("nowhere.h5")
 
@@ -160,6 +187,18 @@ class Experiments(unittest.TestCase):
         self.assertEqual((self.folder / "comparison.pdf").read_bytes()[:5], b"%PDF-")
         with self.assertRaises(StudyError):
             found.figure.save(self.folder / "comparison.svg")
+
+    def test_what_may_be_wrong_with_a_recording_is_warned_of(self) -> None:
+        table = self.columns("motion.csv")
+        wrong = {**table, "x2": 1e3 * table["x2"], "place": table["x2"]}
+        with warnings.catch_warnings(record=True) as warned:
+            warnings.simplefilter("always")
+            found = capsulemap.compare(wrong, RIG)
+            capsulemap.fit({**table, "place": table["x2"]}, RIG, {"k2": (1000, 5000)}, starts=1)
+        told = [str(it.message) for it in warned if it.category is capsulemap.StudyWarning]
+        self.assertTrue(any("unit" in it for it in told), told)
+        self.assertEqual(sum("left out: place" in it for it in told), 2, told)
+        self.assertEqual(found.warnings, found.told["warnings"])
 
     def test_constants_are_those_of_the_command_line(self) -> None:
         words = ["--m1=0.11 kg", "--m2=0.53 kg"]

@@ -6,11 +6,13 @@ import copy
 import pickle
 import tempfile
 import unittest
+from collections.abc import Callable
 from pathlib import Path
 
 import capsulemap
+import numpy
 import xarray
-from capsulemap import Capsule, Oscillator, Study, StudyError
+from capsulemap import Axis, Capsule, Oscillator, Study, StudyError
 
 from program import FIG5, SYSTEMS, command_line
 
@@ -48,11 +50,60 @@ class Systems(unittest.TestCase):
 class Mistakes(unittest.TestCase):
     def test_all_faults_are_told_at_once(self) -> None:
         with self.assertRaises(StudyError) as raised:
-            capsulemap.sweep(Capsule(k2="4 N", p_d=-1, mu=0.3), {"omega": [10, 20]})
+            capsulemap.sweep(Capsule(k2="4 N", p_d=-1), {"omega": [10, 20]})
         self.assertIsInstance(raised.exception, ValueError)
         keys = {fault.key for fault in raised.exception.faults}
-        self.assertEqual(keys, {"parameters.k2", "parameters.p_d", "parameters.mu", "parameters.delta"})
+        self.assertEqual(keys, {"parameters.k2", "parameters.p_d", "parameters.delta"})
+        # A name that is unknown is told where it is given; what is missing may come as an axis.
+        with self.assertRaises(StudyError) as raised:
+            Capsule(k2="4 N", mu=0.3)
+        self.assertEqual({fault.key for fault in raised.exception.faults}, {"parameters.k2", "parameters.mu"})
         self.assertTrue(all(fault.line is None for fault in raised.exception.faults))
+
+    def test_arguments_of_another_kind_are_told_by_name(self) -> None:
+        axes = {"omega": [60.0, 70.0]}
+        wrong: list[tuple[str, Callable[[], object]]] = [
+            ("start", lambda: capsulemap.orbit(FIG5.replace(omega=60), start="1 mm")),  # type: ignore[arg-type]
+            ("protocol", lambda: capsulemap.sweep(FIG5, axes, protocol="fast")),  # type: ignore[call-overload]
+            ("axes", lambda: capsulemap.sweep(FIG5, "omega")),  # type: ignore[call-overload]
+            ("inherit", lambda: capsulemap.sweep(FIG5, axes, inherit=True)),  # type: ignore[call-overload]
+            ("draws", lambda: capsulemap.sweep(FIG5, axes, draws="many")),  # type: ignore[call-overload]
+            ("blocking", lambda: capsulemap.sweep(FIG5, axes, blocking="no")),  # type: ignore[call-overload]
+            ("ends", lambda: capsulemap.branch(FIG5.replace(omega=60), "omega", 3)),  # type: ignore[arg-type]
+            ("Capsule", lambda: capsulemap.fit({"t": []}, "capsule", {})),  # type: ignore[arg-type]
+            ("vary", lambda: capsulemap.fit({"t": []}, FIG5.replace(omega=60), {"k2": "6 kN/m"})),  # type: ignore[dict-item]
+            ("variable", lambda: capsulemap.names("outcome")),  # type: ignore[arg-type]
+        ]
+        for name, ask in wrong:
+            with self.subTest(name), self.assertRaisesRegex(TypeError, name):
+                ask()
+
+    def test_axes_are_called_by_their_names(self) -> None:
+        for axes, key in [
+            ({"omega": [60.0], "k2": ["1 N", "2 N"]}, "axes['k2']"),
+            ({"k2": ["1 kN/m", 2.0]}, "axes.k2"),
+            ({"omega": Axis(60, 70)}, "axes['omega']"),
+            ({"r": [1e-3]}, "axes['r']"),
+        ]:
+            with self.subTest(key=key), self.assertRaises(StudyError) as raised:
+                capsulemap.sweep(FIG5.replace(omega=60), axes)
+            self.assertIn(key, raised.exception.faults[0].key)
+        with self.assertRaisesRegex(StudyError, "starts alone"):
+            capsulemap.basin(FIG5.replace(omega=60), {"k2": [1e3, 2e3]})
+
+    def test_one_text_is_one_name_and_labelled_arrays_have_units(self) -> None:
+        both = [
+            capsulemap.sweep(FIG5, {"omega": [60.0]}, outputs=it)  # type: ignore[call-overload]
+            for it in ("power", ["power"])
+        ]
+        xarray.testing.assert_equal(*both)
+        stiffness = xarray.DataArray(2.42, attrs={"units": "kN/m"})
+        self.assertEqual(FIG5.replace(k2=stiffness).to_toml(), FIG5.replace(k2="2.42 kN/m").to_toml())
+        frequencies = xarray.DataArray([10.0, 11.0], dims="omega", attrs={"units": "Hz"})
+        found = capsulemap.sweep(FIG5, {"omega": frequencies}).omega
+        numpy.testing.assert_allclose(found, 2 * numpy.pi * frequencies.values)
+        self.assertEqual(capsulemap.simulate(FIG5.replace(omega=60), cycles=numpy.int64(2)).sizes["cycle"], 3)
+        self.assertIn("power", FIG5.names["outputs"])
 
     def test_they_are_those_of_the_command_line(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

@@ -75,7 +75,7 @@ class Saved(InAFolder):
     def test_no_part_is_taken_for_the_whole(self) -> None:
         dataset = capsulemap.sweep(FIG5, {"omega": Axis(60, 62, 3)})
         path = self.folder / "part.h5"
-        with self.assertRaisesRegex(StudyError, "1 values along `omega`, and not the 3"):
+        with self.assertRaisesRegex(StudyError, "1 of the 3 values along `omega`"):
             capsulemap.save(dataset.isel(omega=[1]), path)
         with self.assertRaisesRegex(StudyError, "no variable `study`"):
             capsulemap.save(dataset.drop_vars("study"), path)

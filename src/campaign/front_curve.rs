@@ -17,6 +17,8 @@ const RUNGS: usize = 6;
 /// Prices below the cheapest, each this share of the one before; a motion is followed until there is none for the price.
 const BELOW: f64 = 0.85;
 const LOWER: i32 = 12;
+/// So many motions on either side of the budget are followed to it.
+const BESIDE: usize = 8;
 /// A price is kept to this share.
 const KEEPS: f64 = 1e-8;
 
@@ -66,6 +68,24 @@ impl Refinement<'_> {
             [below.into_iter().rev().collect(), above].map(|prices| Gap { from, prices })
         });
         ladders.filter(|gap| !gap.prices.is_empty()).collect()
+    }
+
+    /// From the motions found whose prices are nearest to the budget, some below it and some above, to the budget itself: the most that
+    /// may be had for it lies between two motions of the front, as a rule. None without a budget.
+    pub fn at_budget<'m>(&self, found: &'m [RefinedMotion]) -> Vec<Gap<'m>> {
+        // A motion that is found may be dearer than its price by what a price is kept to.
+        let Some(price) = self.budget.map(|most| most * (1.0 - 2.0 * KEEPS)) else {
+            return Vec::new();
+        };
+        let apart = |it: &RefinedMotion| (it.outputs[self.of.cost] - price).abs();
+        let (mut below, mut above): (Vec<&RefinedMotion>, Vec<&RefinedMotion>) =
+            found.iter().partition(|it| it.outputs[self.of.cost] <= price);
+        let nearest = [&mut below, &mut above].into_iter().flat_map(|side| {
+            side.sort_by(|a, b| apart(a).total_cmp(&apart(b)));
+            side.truncate(BESIDE);
+            side.drain(..)
+        });
+        nearest.map(|from| Gap { from, prices: vec![price] }).collect()
     }
 
     /// The gain of a motion as a share of that of the front of prices and gains at its price; infinite where the front has none for it.

@@ -30,8 +30,9 @@ impl Refinement<'_> {
     ///
     /// # Method
     ///
-    /// Three rounds of searches: from the starts, see [`searches`](Self::searches); from what these led to, at prices over the whole
-    /// range, see [`ladders`](Self::ladders); and along the front, see [`gaps`](Self::gaps).
+    /// Rounds of searches: from the starts, see [`searches`](Self::searches); from what these led to, at prices over the whole
+    /// range, see [`ladders`](Self::ladders); along the front, see [`gaps`](Self::gaps); and at the budget, if there is one, see
+    /// [`at_budget`](Self::at_budget).
     ///
     /// # Breaks
     ///
@@ -66,14 +67,18 @@ impl Refinement<'_> {
         let Led { motions, unsettled } =
             self.followed(&gaps, threads, || reports.step(Stage::Following))?;
         reports.send(Event::Ended(Stage::Following))?;
+        let followed = distinct([both.clone(), motions].concat());
+        let last = self.at_budget(&followed);
+        let at_budget = self.followed(&last, threads, || ())?;
         let searched = Searched {
-            searches: searches.len() + climbing + gaps.len(),
+            searches: searches.len() + climbing + gaps.len() + last.len(),
             starts: starts(&searches),
-            unsettled: found.unsettled + climbed.unsettled + unsettled,
+            unsettled: found.unsettled + climbed.unsettled + unsettled + at_budget.unsettled,
             directions: vec![self.direction],
         };
         let drawn = Some([points, drawn.len()]);
-        Ok(Sought { searched, drawn, motions: distinct([both, motions].concat()) })
+        let motions = distinct([followed.clone(), at_budget.motions].concat());
+        Ok(Sought { searched, drawn, motions })
     }
 
     /// The front of cases and motions between them.

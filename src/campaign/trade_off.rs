@@ -21,7 +21,7 @@ use super::spread::add_errors;
 use super::study_source::study_of;
 use super::tolerance_draws::judge;
 use crate::store::{Archive, CaseTable, Condition, Unread, candidates, conditions};
-use crate::study::Study;
+use crate::study::{Coordinate, Study};
 use crate::tradeoff::{
     Candidate, Direction, GainAndCost, MOST_FREE, Optima, Optimum, hypervolume, most_first,
     optima as best_of,
@@ -115,6 +115,9 @@ impl TradeOff<'_> {
         let found = candidates(&table, self.of, &conditions).map_err(|it| self.unread(it))?;
         let rows = Rows::of(&table, self.archive, &self.file.display().to_string())?;
         let study = self.needs_orbits().then(|| study_of(self.archive, self.file)).transpose()?;
+        if let (Some(under), Some(study)) = (self.under, &study) {
+            self.check_tolerances(under, study)?;
+        }
         let none = KeptSearches::default();
         let between = self.between_cases(&conditions)?;
         let gains = found.all.iter().map(|it| it.gain);
@@ -163,6 +166,22 @@ impl TradeOff<'_> {
             bound(answer, refinement, self.threads, reports)?;
         }
         Ok(())
+    }
+
+    /// Refuses tolerances of parameters that have no value in the study, as a share of nothing is nothing.
+    fn check_tolerances(&self, under: &Tolerances, study: &Study) -> Result<(), CampaignError> {
+        let varied = study.case_set.varied();
+        let without = under.each.iter().map(|it| it.0).filter(|it| {
+            let has_value = study.base.states(*it) && study.base[*it] != 0.0;
+            !has_value && !varied.contains(&Coordinate::Parameter(*it))
+        });
+        let faults: Vec<String> = without
+            .map(|it| format!("--tolerances {}: the study gives it no value", it.symbol()))
+            .collect();
+        if faults.is_empty() {
+            return Ok(());
+        }
+        Err(CampaignError::TradeOff { path: self.file.to_owned(), faults })
     }
 
     /// What is asked of motions between the cases, if they are sought.

@@ -13,7 +13,9 @@ use super::terminal::print;
 use super::text_compare;
 use super::varied::{Varied, threads, varied};
 use crate::experiment::least_squares::Loss;
-use crate::experiment::{Effort, Free, TextRecord, Weights, compare, compare_text, explain};
+use crate::experiment::{
+    Effort, Free, TextRecord, Weights, compare, compare_text, explain, left_out,
+};
 use crate::figure::plot::{Plot, draw_plot};
 use crate::figure::{Format, Place};
 use crate::motion::Case;
@@ -114,10 +116,13 @@ impl Compare {
             let plot = |name: &str| comparison_plot(name, &comparison, &self.about(), self.cycles);
             paths = self.draw(plot, output)?;
         }
+        let left_out = left_out(&recording);
         if self.json {
-            return print(&format!("{:#}\n", as_json(&comparison, &explanations)));
+            let object = as_json(&comparison, &explanations, left_out.as_deref());
+            return print(&format!("{object:#}\n"));
         }
         let mut text = told_of(&comparison);
+        text.extend(left_out.map(|it| format!("warning: {it}\n")));
         for (it, varied) in explanations.iter().zip(&choices) {
             text += &explained(&comparison, it, varied);
         }

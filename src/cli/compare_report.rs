@@ -48,6 +48,11 @@ pub fn told_of(it: &Comparison) -> String {
     text
 }
 
+/// The warnings among the lines of a comparison.
+fn warnings_in(lines: &str) -> impl Iterator<Item = &str> {
+    lines.lines().filter_map(|line| line.trim_start().strip_prefix("warning: "))
+}
+
 /// The recorded drive beside that of the study, with what may be wrong.
 fn told_of_drive(it: &Comparison, drive: &Drive) -> String {
     let parameters = &it.motion.parameters;
@@ -218,10 +223,17 @@ pub fn explained(comparison: &Comparison, it: &Explanation, varied: &[Varied]) -
 }
 
 /// The comparison as JSON.
-pub fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Value {
+pub fn as_json(
+    it: &Comparison,
+    explanations: &[Explanation],
+    left_out: Option<&str>,
+) -> serde_json::Value {
+    let lines = told_of(it);
+    let warnings: Vec<&str> = warnings_in(&lines).chain(left_out).collect();
     let drive = it.drive.as_ref();
     let force = drive.filter(|it| it.is_force).map(|it| it.harmonic.amplitude);
     json!({
+        "warnings": warnings,
         "countable": it.is_countable,
         "samples": it.sampling.count,
         "gaps": it.sampling.gaps,

@@ -20,7 +20,7 @@ use crate::experiment::least_squares::Loss;
 use crate::experiment::simulated_span::check_span;
 use crate::experiment::{
     Constant, Effort, Free, Frequencies, Harmonic, Identified, MotionFit, Recorded, Recording,
-    Sampling, TextRecord, Weights, fit_motion, fit_text, harmonic,
+    Sampling, TextRecord, Weights, fit_motion, fit_text, harmonic, left_out,
 };
 use crate::motion::Case;
 use crate::of::default_model;
@@ -233,7 +233,8 @@ impl Fit {
         let drive = harmonic(&times, drive).map_err(|why| Failure::of_file(path, why))?;
         let span = self.used_cycles() as f64 * period;
         let omega = case.parameters.frequency();
-        let warnings = warnings_of_record(path, &sampling, &drive, omega, span)?;
+        let mut warnings = warnings_of_record(path, &sampling, &drive, omega, span)?;
+        warnings.extend(left_out(&recording).map(|it| format!("{}: {it}", printable(path))));
         let count = times.partition_point(|time| *time <= span);
         let signals =
             signals.into_iter().map(|(signal, values)| (signal, values[..count].to_vec()));

@@ -20,7 +20,7 @@ const EXAMPLES: &str = "\
 Examples:
   capsulemap join STUDY.toml
   capsulemap join STUDY.toml --partial
-  capsulemap join STUDY.toml --missing 8          # which of 8 tasks are to be submitted again
+  capsulemap join STUDY.toml --missing 8   # of 8 tasks, those to repeat
   capsulemap join STUDY.toml --from a/NAME.blocks b/NAME.blocks
 
 `sweep` joins by itself unless it was one task of several. With --partial the file and the figures go to a \

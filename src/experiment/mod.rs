@@ -60,7 +60,7 @@ pub use free_vibration::{FreeVibration, free_vibration};
 pub use friction::{Coasting, CoastingTests, coasting, static_friction};
 pub use identification::{Constant, Given, Identified, Test, identify};
 pub use misfit::Misfit;
-pub use motion_columns::columns_of_motion;
+pub use motion_columns::{columns_of_motion, left_out};
 pub use motion_fit::{Effort, Fitted, MotionFit, fit_motion};
 pub use profile::{Profile, Verdict};
 pub use progression::Progression;

@@ -1,6 +1,6 @@
 //! The columns that a recording of a motion may have.
 
-use super::recording::{Column, Presence};
+use super::recording::{Column, Presence, Recording};
 use crate::capsule::sampled::Signal;
 use crate::description::Description;
 use crate::quantity::Dimension;
@@ -19,6 +19,15 @@ pub fn columns_of_motion(model: &'static Description) -> Vec<Column> {
     let are_numbers = states.iter().all(|it| it.dimension == Dimension::Number);
     let of_time = if are_numbers { Dimension::Number } else { Dimension::Time };
     [times(of_time)].into_iter().chain(states).collect()
+}
+
+/// That a recording of a capsule has columns which are no signals; nothing if it has none.
+pub fn left_out(recording: &Recording) -> Option<String> {
+    if recording.others.is_empty() {
+        return None;
+    }
+    let signals = Signal::ALL.map(Signal::name).join(", ");
+    Some(format!("left out: {}; the signals are {signals}, current", recording.others.join(", ")))
 }
 
 fn times(dimension: Dimension) -> Column {

@@ -38,7 +38,7 @@ pub fn read_system(
 /// without all of them.
 ///
 /// `parameters`, `coordinates` and `columns` (of the recording of a motion): the unit of a number, none where it has no unit; `choices`:
-/// what may be chosen; `outputs`: unit and meaning.
+/// what may be chosen; `outputs`: unit and meaning; `told`: value without one being given, if there is one, and meaning of each parameter.
 #[pyfunction]
 #[pyo3(signature = (*, model = None, tables = None, results = None))]
 pub fn describe<'py>(
@@ -62,9 +62,11 @@ pub fn describe<'py>(
 }
 
 fn told<'py>(py: Python<'py>, model: &'static Description) -> PyResult<Bound<'py, PyDict>> {
-    let parameters = PyDict::new(py);
+    let [parameters, told] = [PyDict::new(py), PyDict::new(py)];
     for parameter in model.parameters() {
-        parameters.set_item(parameter.symbol(), unit(parameter.dimension()))?;
+        let (name, usual) = (parameter.symbol(), parameter.default_value());
+        parameters.set_item(name, unit(parameter.dimension()))?;
+        told.set_item(name, ((!usual.is_nan()).then_some(usual), parameter.meaning()))?;
     }
     let coordinates = PyDict::new(py);
     for coordinate in Coordinate::all(model) {
@@ -84,6 +86,7 @@ fn told<'py>(py: Python<'py>, model: &'static Description) -> PyResult<Bound<'py
     all.set_item("name", model.name)?;
     all.set_item("columns", columns(py, &columns_of_motion(model))?)?;
     all.set_item("parameters", parameters)?;
+    all.set_item("told", told)?;
     all.set_item("coordinates", coordinates)?;
     all.set_item("choices", choices)?;
     all.set_item("outputs", outputs)?;

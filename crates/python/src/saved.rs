@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use capsulemap::store::catalogue::STUDY_TEXT;
+use capsulemap::store::catalogue::{OUTCOME, STUDY_TEXT};
 use capsulemap::store::{self, Dataset, Values, Variable, is_of_format};
 use capsulemap::study::Study;
 use numpy::{PyArrayDyn, PyArrayMethods};
@@ -13,6 +13,9 @@ use super::failure;
 
 /// What stands for the file of the study in messages.
 const STUDY: &str = "the study of the dataset";
+
+/// What is to be done in place of a part of the results.
+const WHOLE: &str = "give all of the results, before anything is selected or dropped, and choose by arguments (`where`, `at`)";
 
 /// Writes a dataset, a dictionary as [of_dataset](super::labelled::of_dataset) makes them, to the file of results at a path. Attributes of
 /// variables that no file of results has are left out.
@@ -119,11 +122,19 @@ fn check_whole(py: Python<'_>, dataset: &Dataset) -> PyResult<()> {
     for (name, expected) in store::frame(&study).coordinates {
         let found = dataset.coordinate(&name).map(|it| &it.values);
         if found != Some(&expected.values) {
-            let (has, of) = (found.map_or(0, |it| it.shape()[0]), expected.values.shape()[0]);
+            let (has, of) = (found.map_or(1, |it| it.shape()[0]), expected.values.shape()[0]);
             return refused(format!(
-                "the dataset has {has} values along `{name}`, and not the {of} of its study: take it before anything is selected from it"
+                "the dataset has {has} of the {of} values along `{name}`; {WHOLE}"
             ));
         }
+    }
+    for (name, variable) in &dataset.variables {
+        if !variable.flags.is_empty() && matches!(variable.values, Values::Real(_)) {
+            return refused(format!("`{name}` of the dataset lacks values; {WHOLE}"));
+        }
+    }
+    if !store::has_cases(dataset) && !store::has_branches(dataset) {
+        return refused(format!("the dataset has no `{}`; {WHOLE}", OUTCOME.name));
     }
     Ok(())
 }
