@@ -14,7 +14,7 @@ from capsulemap import Axis, Draws
 
 from program import FIG5, SYSTEMS, TWO_MOTIONS, BesideTheCommandLine
 
-STUDIES = int(os.environ.get("STUDIES", "8"))
+STUDIES = int(os.environ.get("STUDIES", "6"))
 """How many random studies are compared."""
 
 

@@ -22,7 +22,7 @@ from capsulemap import Axis, Draws, StudyError
 from program import FIG5, SYSTEMS, TWO_MOTIONS, command_line
 
 
-STOPS = int(os.environ.get("STOPS", "3"))
+STOPS = int(os.environ.get("STOPS", "2"))
 """How often each study is stopped before it is resumed to its end."""
 
 
@@ -128,9 +128,9 @@ class Kept(InAFolder):
         self.assertEqual(os.listdir(self.folder), ["kept.h5"])
 
     def test_what_was_stopped_anywhere_is_resumed_to_the_same_numbers(self) -> None:
-        starts = {"start_r": Axis("-4 mm", "4 mm", 300), "start_y1": Axis(-0.4, 0.4, 300)}
+        starts = {"start_r": Axis("-4 mm", "4 mm", 200), "start_y1": Axis(-0.4, 0.4, 200)}
         plane = {"omega": Axis(130, 170, 130), "p_d": Axis(2, 3, 130)}
-        line = {"omega": Axis(130, 170, 3000), "p_d": Axis(2, 3, 3)}
+        line = {"omega": Axis(130, 170, 1500), "p_d": Axis(2, 3, 3)}
         asked: list[Callable[..., Any]] = [
             lambda **how: capsulemap.basin(TWO_MOTIONS.replace(omega=155), starts, refine=True, **how),
             lambda **how: capsulemap.sweep(TWO_MOTIONS, plane, refine={"progression_speed": 1e-3}, **how),
