@@ -144,9 +144,7 @@ impl<'a, 's> Values<'a, 's> {
             Meaning::Output(place) => match self.outputs.get(place).filter(|_| self.is_output) {
                 Some(known) => return *known,
                 None => {
-                    let message = format!(
-                        "{name} is an output, of which outputs alone may be that stand after it"
-                    );
+                    let message = format!("{name} is an output; only later outputs may use it");
                     self.source.fault(at, message);
                     return None;
                 }
@@ -304,8 +302,8 @@ impl<'a, 's> Values<'a, 's> {
         let Some(friction) = self.of_frictions.iter().position(known) else {
             self.source.fault(
                 at,
-                "abs of what changes is known for the `of` of a friction alone; \
-                 of others it is a switch: write [system.switch.NAME] with `where`",
+                "abs of what changes is allowed only of the `of` of a friction; elsewhere it is a switch: write \
+                 [system.switch.NAME] with `where`",
             );
             return None;
         };

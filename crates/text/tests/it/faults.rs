@@ -48,7 +48,7 @@ rest = { v = \"-v\" }
         "line 10, column 5: k must be a finite number",
         "line 13, column 10: nothing is called \"u\" (allowed: f, k, pi, t, v, w, x)",
         "line 14, column 11: a power must be a whole number from -64 to 64; others are exp(exponent*log(base)), roots are sqrt",
-        "line 14, column 17: abs of what changes is known for the `of` of a friction alone; of others it is a switch: write \
+        "line 14, column 17: abs of what changes is allowed only of the `of` of a friction; elsewhere it is a switch: write \
          [system.switch.NAME] with `where`",
         "line 14, column 26: max of what changes is a switch: write [system.switch.NAME] with `where`",
         "line 14, column 38: there is no function \"sine\"; did you mean \"sin\"? (allowed: sqrt, exp, log, sin, cos, tanh, abs, max, min)",
