@@ -51,8 +51,9 @@ fn a_motion_held_by_a_fold_is_where_continuation_finds_that() {
     let folder = WorkDir::new();
     folder.put("study.toml", STUDY);
     folder.run(&["sweep", "study.toml"]).done();
-    let refine =
-        ["tradeoff", "results/study/study.h5", "--refine", "--direction", "forward", "--json"];
+    // Fewer starts than usual find fold after fold.
+    let refine = "tradeoff results/study/study.h5 --refine --starts 16 --direction forward --json";
+    let refine: Vec<&str> = refine.split(' ').collect();
     let answer = folder.run(&refine).json();
     let front = answer["front"].as_array().expect("a front");
     let held: Vec<&Value> = front.iter().filter(|it| it["held_by"] == json!(["fold"])).collect();
