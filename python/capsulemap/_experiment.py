@@ -128,6 +128,11 @@ def fit(
     """
     systems = _systems(system)
     _text.mapping("vary", vary, '{"k2": ("1 kN/m", "5 kN/m")}')
+    if not vary:
+        raise _text.unfit("vary", "expected one parameter at least with its bounds")
+    _text.whole("cycles", cycles, 1)
+    _text.whole("starts", starts, 1)
+    _text.truth("robust", robust)
     units = systems[0]._description()["parameters"]
     varied = [_bounds(name, ends, units.get(name)) for name, ends in vary.items()]
     with tempfile.TemporaryDirectory(prefix="capsulemap-") as folder:
@@ -164,6 +169,7 @@ def compare(
     much of the difference they explain (of a capsule); the figure shows so many ``cycles``. Raises StudyError and MachineError.
     """
     _check_system(system)
+    _text.whole("cycles", cycles, 1)
     units = system._description()["parameters"]
     choices = [",".join(_bounds(name, ends, units.get(name)) for name, ends in it.items()) for it in explain]
     folder = Folder()
@@ -201,6 +207,8 @@ def identify(
         "coasting": coasting,
         "motor": motor,
     }
+    if all(it is None for it in recordings.values()):
+        raise _text.unfit("", f"no recording is given; expected one of {', '.join(recordings).replace('-', '_')}")
     columns = _capsulemap.tests()
     with tempfile.TemporaryDirectory(prefix="capsulemap-") as folder:
         given: dict[str, object] = {

@@ -6,6 +6,8 @@ import sys
 import time
 from typing import Any
 
+from . import _text
+
 FIRST_SHOWN = 1.0
 """Time before anything is shown [s]."""
 INTERVAL = 0.5
@@ -16,6 +18,8 @@ _is_shown: bool | None = None
 
 def set_progress(shown: bool | None) -> None:
     """Sets whether long computations show their progress: by default (None) in notebooks, and where standard error is a terminal."""
+    if shown is not None:
+        _text.truth("shown", shown)
     global _is_shown
     _is_shown = shown
 

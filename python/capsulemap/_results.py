@@ -19,13 +19,14 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:  # noqa: A001
     The same as ``xarray.open_dataset(path).load()``, without a library that reads HDF5 in Python, and with a check of the file's
     checksum. Raises StudyError where it is no file of results or not there, and MachineError where it cannot be read.
     """
-    blocks = os.path.splitext(os.fspath(path))[0] + ".blocks"
+    path = os.fsdecode(path)
+    blocks = os.path.splitext(path)[0] + ".blocks"
     if not os.path.exists(path):
         told = "there is no such file"
         if os.path.isdir(blocks):
             told = f"is not whole yet: blocks of it are in {blocks}; the same call with keep= goes on"
-        raise StudyError(f"{os.fspath(path)}: {told}")
-    return dataset(_capsulemap.read_results(os.fspath(path)))
+        raise StudyError(f"{path}: {told}")
+    return dataset(_capsulemap.read_results(path))
 
 
 NODES = {
@@ -50,6 +51,8 @@ def tree(results: xarray.Dataset) -> xarray.DataTree:
     """
     import xarray
 
+    if not hasattr(results, "data_vars"):
+        raise TypeError(f"expected a Dataset, found {type(results).__name__}")
     tables: dict[str, list[str]] = {}
     for name, variable in results.data_vars.items():
         first = str(variable.dims[0]) if variable.dims else ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Literal, NamedTuple, Union, overload
 
-from . import _capsulemap
+from . import _capsulemap, _text
 from ._errors import StudyWarning, warn
 from ._job import Job, waited
 from ._systems import is_path
@@ -108,8 +108,7 @@ def run(
     """Computes what is wanted of a study."""
     tell(study)
     path = None if kept.path is None else os.path.abspath(kept.path)
-    if not isinstance(blocking, bool):
-        raise TypeError(f"blocking: expected True or False, found {blocking!r}")
+    _text.truth("blocking", blocking)
     job = Job(study.begin(cases, branches, path, kept.overwrite))
     return waited(job, has_cases=cases) if blocking else job
 

@@ -68,7 +68,8 @@ class _Parametric:
             # What is not given may come as an axis.
             own = [fault for fault in error.faults if fault.key.removeprefix("parameters.") in self._given]
             told = "".join(f"\n  {fault}" for fault in own)
-            raise StudyError(f"the parameters: {len(own)} faults{told}", own) from None
+            faults = "1 fault" if len(own) == 1 else f"{len(own)} faults"
+            raise StudyError(f"the parameters: {faults}{told}", own) from None
 
     def to_toml(self) -> str:
         """The system as the text of a study file, with numbers in SI units."""

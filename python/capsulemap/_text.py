@@ -123,6 +123,19 @@ def mapping(key: str, value: object, example: str) -> None:
         raise TypeError(f"{key}: expected a mapping, as {example}, found {type(value).__name__} {value!r}")
 
 
+def whole(key: str, value: object, least: int = 0) -> None:
+    """Sure that an argument is a whole number, or nothing."""
+    is_whole = isinstance(value, Integral) and not isinstance(value, bool)
+    if value is not None and (not is_whole or value < least):  # type: ignore[operator]
+        raise unfit(key, f"expected a whole number, {least} or more, found {value!r}")
+
+
+def truth(key: str, value: object) -> None:
+    """Sure that an argument is True or False."""
+    if not isinstance(value, bool):
+        raise TypeError(f"{key}: expected True or False, found {value!r}")
+
+
 def pair(key: str, value: object, what: str) -> tuple[Any, Any]:
     """An argument of two parts."""
     if isinstance(value, (str, bytes)) or not isinstance(value, Iterable) or len(parts := list(value)) != 2:
@@ -132,6 +145,8 @@ def pair(key: str, value: object, what: str) -> tuple[Any, Any]:
 
 def listed(value: Any) -> list[Any] | None:
     """Several of something; a text alone is one."""
+    if value is not None and not isinstance(value, Iterable):
+        raise TypeError(f"expected a name or several, found {value!r}")
     return None if value is None else [value] if isinstance(value, str) else list(value)
 
 

@@ -102,6 +102,10 @@ def tradeoff(
     that holds as long as the TradeOff, which ``results`` may be, too. Ctrl-C ends it. Raises StudyError and MachineError.
     """
     _text.mapping("tolerances", tolerances, '{"k2": 0.05}')
+    for name, number in (("starts", starts), ("draws", draws), ("seed", seed), ("top", top)):
+        _text.whole(name, number)
+    _text.truth("refine", refine)
+    _text.truth("margins", margins)
     place = Place(results)
     given = {
         "of": of,
