@@ -150,10 +150,15 @@ def error(code: int, said: Sequence[str]) -> Exception:
             number, key, message = found.groups()
             faults.append(Fault(int(number) if number else None, key or "", message))
         elif option := re.match(r"--([\w-]+)(?:: | )(.*)", line):
-            faults.append(Fault(None, option[1].replace("-", "_"), option[2]))
+            faults.append(Fault(None, _argument(option[1]), option[2]))
         elif line:
             faults.append(Fault(None, "", line))
     return StudyError("\n".join(told), faults)
+
+
+def _argument(option: str) -> str:
+    """What an option is called in Python, of which `for` is a word of its own."""
+    return "gain" if option == "for" else option.replace("-", "_")
 
 
 def _of_usage(said: Sequence[str]) -> Fault | None:
@@ -166,7 +171,7 @@ def _of_usage(said: Sequence[str]) -> Fault | None:
     more = [line.strip("[]") for line in lines[begins + 1 :] if line.startswith(("[possible", "tip:"))]
     key = ""
     if found := re.match(r"invalid value '(.*)' for '--([\w-]+)[^']*'(?:: )?(.*)", message):
-        key, message = found[2].replace("-", "_"), f"{found[1]!r} is not allowed" + (f": {found[3]}" if found[3] else "")
+        key, message = _argument(found[2]), f"{found[1]!r} is not allowed" + (f": {found[3]}" if found[3] else "")
     return Fault(None, key, "; ".join([message, *more]))
 
 

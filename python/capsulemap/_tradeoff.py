@@ -65,7 +65,8 @@ class TradeOff:
     def __repr__(self) -> str:
         gain, cost = self.told.get("for", "progression_speed"), self.told["of"]
         told = [f"<TradeOff of {gain} against {cost}: {self.front.sizes['point']} motions on the front>"]
-        for name in self.optima.optimum.values.tolist():
+        # Without a single motion there are no columns.
+        for name in self.optima.optimum.values.tolist() if gain in self.optima else ():
             motion = self.optima.sel(optimum=name)
             told.append(f"  {name}: {gain} = {motion[gain].item():.6g}, {cost} = {motion[cost].item():.6g}")
         return "\n".join(told)

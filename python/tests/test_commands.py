@@ -104,6 +104,12 @@ class TradeOffs(unittest.TestCase):
         none = capsulemap.tradeoff(self.results, budget="1 uW")
         self.assertTrue(math.isnan(float(none.optima.sel(optimum="fastest_within_budget").progression_speed)))
         self.assertIn("fastest_within_budget: there is no such motion", none.notes)
+        nothing = capsulemap.tradeoff(self.results, where="power < 1 uW", budget="1 uW")
+        self.assertEqual(nothing.front.sizes["point"], 0)
+        self.assertIn("0 motions on the front", repr(nothing))
+        with self.assertRaises(StudyError) as caught:
+            capsulemap.tradeoff(self.results, gain="sped")
+        self.assertEqual(caught.exception.faults[0].key, "gain")
 
     def test_all_faults_are_told_by_their_keys(self) -> None:
         with self.assertRaises(StudyError) as caught:
