@@ -69,10 +69,12 @@ class Built:
             raise TypeError(f"inherit: expected the name of an axis, found {self.inherit!r}")
         if isinstance(self.draws, bool) or not isinstance(self.draws, (Draws, int, type(None))):
             raise TypeError(f"draws: expected Draws or how many, found {self.draws!r}")
-        coordinates = self.system._description()["coordinates"]
+        known = self.system._description()
         for name in self.axes:
-            if f"start_{name}" in coordinates:
+            if f"start_{name}" in known["coordinates"]:
                 raise _text.unfit(f"axes[{name!r}]", f"the start is called start_{name} on an axis")
+            if self.basin is not None and name in known["parameters"]:
+                raise _text.unfit(f"axes[{name!r}]", "a basin has starts alone on its axes; sweep takes parameters, too")
 
     def _by_names(self, error: StudyError) -> StudyError:
         """An error whose faults call axes by their names, as there is no file to count them in."""

@@ -130,7 +130,8 @@ def fit(
     _text.mapping("vary", vary, '{"k2": ("1 kN/m", "5 kN/m")}')
     if not vary:
         raise _text.unfit("vary", "expected one parameter at least with its bounds")
-    _text.whole("cycles", cycles, 1)
+    if cycles is not None:
+        _text.whole("cycles", cycles, 1)
     _text.whole("starts", starts, 1)
     _text.truth("robust", robust)
     units = systems[0]._description()["parameters"]

@@ -11,9 +11,9 @@ from typing import Any
 from . import _capsulemap, _process, _text
 from ._errors import StudyError
 from ._recordings import Recording, file_of
-from ._saved import Folder, Place, Results
-from ._tradeoff import TradeOff
+from ._saved import Folder, Place, Results, check_free
 from ._text import Quantity
+from ._tradeoff import TradeOff
 
 SAVED_DPI = 600
 """Dots per inch of what is saved."""
@@ -45,8 +45,7 @@ class Figure:
 
         Raises StudyError where a file is there and not to be overwritten, or the figure has no such format.
         """
-        if not overwrite and os.path.lexists(path):
-            raise StudyError(f"{os.fspath(path)}: is there already; another path, or overwrite=True")
+        check_free(path, overwrite)
         extension = os.path.splitext(os.fspath(path))[1].removeprefix(".").lower()
         if extension not in ("png", "svg", "pdf", "csv"):
             raise StudyError(f"{os.fspath(path)}: expected a name that ends in .png, .svg, .pdf or .csv")
@@ -110,8 +109,8 @@ def figure(
 
     ``kind`` is "bifurcation", "map", "basin", "history", "phase-portrait", "spectrum", "section", "settling", "shares", "trade-off",
     "trade-off-maps" or "curves"; ``of`` names the outputs, ``x`` and ``y`` the axes, ``at`` the values at which others are held (several
-    give panels), as ``{"delta": ["1 mm", "2 mm"]}``; ``cycles`` from and to bound a history. ``points`` are measured points over a bifurcation diagram: a CSV file or a table with columns in SI units. ``width``,
-    ``height`` and ``marker_size`` are in mm or texts with units; ``limits``, ``scale``, ``unit``, ``label``, ``decimals``, ``colour_map``, ``centre`` and
+    give panels), as ``{"delta": ["1 mm", "2 mm"]}``; ``cycles`` from and to bound a history. ``points`` are measured points over a
+    bifurcation diagram: a CSV file or a table with columns in SI units. ``width``, ``height`` and ``marker_size`` are in mm or texts with units; ``limits``, ``scale``, ``unit``, ``label``, ``decimals``, ``colour_map``, ``centre`` and
     ``contours`` map quantities to how they are shown. Raises StudyError where the results do not have what is asked, and MachineError.
     """
     for name, each in (("at", at), ("unit", unit), ("label", label), ("limits", limits), ("scale", scale)):

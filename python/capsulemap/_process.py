@@ -11,7 +11,6 @@ import threading
 from collections.abc import Iterable, Mapping, Sequence
 from typing import IO, Any
 
-from . import _capsulemap
 from ._errors import Fault, MachineError, StudyError
 from ._progress import Progress
 
@@ -126,11 +125,6 @@ def options(given: Mapping[str, object]) -> list[str]:
         each: Iterable[object] = [value] if isinstance(value, str) or not isinstance(value, Iterable) else value
         words.extend(f"{option}={it}" for it in each)
     return words
-
-
-def threads() -> int | None:
-    """The threads that a command may take, as ``set_threads`` says; None for one per core."""
-    return _capsulemap.threads()
 
 
 def error(code: int, said: Sequence[str]) -> Exception:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from numbers import Integral
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from . import _results, _study, _text
@@ -37,8 +36,7 @@ def simulate(
     """
     study = Built(system, start=start, protocol=protocol).study()
     _study.tell(study)
-    if isinstance(cycles, bool) or not isinstance(cycles, Integral) or cycles < 0:
-        raise _text.unfit("cycles", f"expected a whole number, 0 or more, found {cycles!r}")
+    _text.whole("cycles", cycles)
     return _results.dataset(study.simulate(int(cycles)))
 
 
@@ -135,8 +133,9 @@ def sweep(
 ) -> xarray.Dataset | Job:
     """Computes the settled motion of every case of a grid, or of random draws.
 
-    ``outputs`` are names of ``system.names["outputs"]``, all of them unless given. ``axes`` maps parameters ("omega") and coordinates of the start ("start_r", "start_phase") to their values, slowest first: an
-    array or list of numbers in SI units or texts with units, or an Axis. With ``draws`` each axis is an Axis or a pair, the range.
+    ``axes`` maps parameters ("omega") and coordinates of the start ("start_r", "start_phase") to their values, slowest first: an
+    array or list of numbers in SI units or texts with units, or an Axis. ``outputs`` are names of ``system.names["outputs"]``, all of
+    them unless given. With ``draws`` each axis is an Axis or a pair, the range.
     With ``inherit`` each case starts where its neighbour along that axis has settled, in each of the ``directions`` ("upward",
     "downward"). ``refine`` maps outputs to the most by which neighbours may differ: cases are computed only where they do.
     ``protocol`` and ``history`` have the keys of these tables of a study file. ``keep`` and ``overwrite`` are as those of ``Study.run``.
@@ -218,10 +217,6 @@ def basin(
     variables over ``attractor_index`` tell of each motion: its period, multipliers, outputs and share of the starts. With ``refine``
     only starts beside the boundaries are computed. Returns and raises as ``sweep`` does.
     """
-    _text.mapping("axes", axes, '{"start_r": capsulemap.Axis("-4 mm", "4 mm", 50)}')
-    if isinstance(system, _Parametric):
-        for name in set(axes) & set(system._description()["parameters"]):
-            raise _text.unfit(f"axes[{name!r}]", "a basin has starts alone on its axes; sweep takes parameters, too")
     keys: dict[str, object] = {} if early_decision else {"early_decision": False}
     if refine:
         keys["refine"] = True
@@ -250,8 +245,8 @@ def attractors(
 ) -> xarray.Dataset:
     """The motions that starts lead to: as ``basin``, but only the table of motions over ``attractor_index``, not the result of each start.
 
-    The starts are those of ``axes``, as of a basin, or drawn from their ranges. Each motion has its outcome, period, multipliers, section points,
-    outputs (SI) and share of the starts. Raises StudyError and MachineError.
+    The starts are those of ``axes``, as of a basin, or drawn from their ranges. Each motion has its outcome, period, multipliers,
+    section points, outputs (SI) and share of the starts. Raises StudyError and MachineError.
     """
     whole = basin(system, axes, outputs=outputs, start=start, draws=draws, protocol=protocol)
     of_starts = {"draw", *axes} & set(map(str, whole.sizes))

@@ -30,9 +30,14 @@ def save(
     """
     if not hasattr(results, "data_vars"):
         raise TypeError(f"expected a Dataset, found {type(results).__name__}")
+    check_free(path, overwrite)
+    _capsulemap.write_results(os.fspath(path), _raw(results))
+
+
+def check_free(path: str | os.PathLike[str], overwrite: bool) -> None:
+    """Sure that nothing is replaced unasked."""
     if not overwrite and os.path.lexists(path):
         raise StudyError(f"{os.fspath(path)}: is there already; another path, or overwrite=True")
-    _capsulemap.write_results(os.fspath(path), _raw(results))
 
 
 class Folder:

@@ -124,9 +124,8 @@ def mapping(key: str, value: object, example: str) -> None:
 
 
 def whole(key: str, value: object, least: int = 0) -> None:
-    """Sure that an argument is a whole number, or nothing."""
-    is_whole = isinstance(value, Integral) and not isinstance(value, bool)
-    if value is not None and (not is_whole or value < least):  # type: ignore[operator]
+    """Sure that an argument is a whole number."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < least:
         raise unfit(key, f"expected a whole number, {least} or more, found {value!r}")
 
 

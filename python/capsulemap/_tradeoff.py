@@ -104,7 +104,8 @@ def tradeoff(
     """
     _text.mapping("tolerances", tolerances, '{"k2": 0.05}')
     for name, number in (("starts", starts), ("draws", draws), ("seed", seed), ("top", top)):
-        _text.whole(name, number)
+        if number is not None:
+            _text.whole(name, number)
     _text.truth("refine", refine)
     _text.truth("margins", margins)
     place = Place(results)
@@ -123,7 +124,7 @@ def tradeoff(
         "margins": margins,
         "seed": seed,
         "top": top or None,
-        "threads": _process.threads(),
+        "threads": _capsulemap.threads(),
     }
     told, notes = _process.asked_for_json(["tradeoff", place.path, *_process.options(given)])
     model = _capsulemap.describe(results=place.path)

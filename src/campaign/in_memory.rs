@@ -7,7 +7,8 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use super::error::CampaignError;
 use super::joining::Joining;
 use super::report::{Event, Report, Reports, Stage};
-use crate::flow::{Stop, stop};
+use super::until_stopped::until_stopped;
+use crate::flow::Stop;
 use crate::run::{self, Machine, Record, has_attractors, run_blocks};
 use crate::store::{self, Blocks, CaseVariable, Dataset, Variable, add_attractors, add_branches};
 use crate::study::{Study, spread};
@@ -80,12 +81,7 @@ impl InMemory {
     /// started, or, with [`CampaignError::Stopped`], if it was stopped or the listener asks for it.
     pub fn run(&self, wanted: Wanted, report: &Report<'_>) -> Result<Dataset, CampaignError> {
         self.study.check_text("the study")?;
-        let before = stop::current();
-        stop::obey(Some(self.stop.clone()));
-        let done = self.compute(wanted, &Reports::new(report));
-        stop::obey(before);
-        // What was computed after that has no meaning.
-        if self.stop.is_asked() { Err(CampaignError::Stopped) } else { done }
+        until_stopped(&self.stop, || self.compute(wanted, &Reports::new(report)))
     }
 
     fn compute(&self, wanted: Wanted, reports: &Reports<'_>) -> Result<Dataset, CampaignError> {

@@ -45,6 +45,7 @@ pub mod status;
 pub mod study_source;
 pub mod tolerance_draws;
 pub mod trade_off;
+mod until_stopped;
 pub mod verify;
 
 pub use answer::{Answer, Named, Refined, Searched};

@@ -9,7 +9,8 @@ use super::in_memory::Wanted;
 use super::report::{Event, silent};
 use super::request::Campaign;
 use super::share::Task;
-use crate::flow::{Stop, stop};
+use super::until_stopped::until_stopped;
+use crate::flow::Stop;
 use crate::run::Machine;
 use crate::store::{self, Dataset};
 use crate::study::Study;
@@ -47,11 +48,7 @@ impl OnDisk {
     ///
     /// Fails as [`Campaign::run`] and [`Campaign::continue_branches`] do, and with [`CampaignError::Stopped`] if it was stopped.
     pub fn run(&self, wanted: Wanted) -> Result<Dataset, CampaignError> {
-        let before = stop::current();
-        stop::obey(Some(self.stop.clone()));
-        let done = self.compute(wanted);
-        stop::obey(before);
-        if self.stop.is_asked() { Err(CampaignError::Stopped) } else { done }
+        until_stopped(&self.stop, || self.compute(wanted))
     }
 
     fn compute(&self, wanted: Wanted) -> Result<Dataset, CampaignError> {

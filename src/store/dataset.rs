@@ -111,6 +111,15 @@ impl Variable {
         Variable { dimensions, unit, long_name, values, flags: Flags::new() }
     }
 
+    /// The name of each value of a category along one dimension; none of a value without one.
+    pub fn names(&self) -> Vec<Option<&str>> {
+        let named = |code: f64| {
+            let flag = self.flags.iter().find(|(value, _)| *value as f64 == code);
+            flag.map(|(_, word)| word.as_str())
+        };
+        self.values.to_real().into_iter().map(named).collect()
+    }
+
     /// The variable in another unit.
     pub fn with_unit(self, unit: &str) -> Variable {
         Variable { unit: unit.to_owned(), ..self }

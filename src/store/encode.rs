@@ -109,9 +109,8 @@ fn put_coordinate(
 /// A category as the names of its values, by which xarray selects; the flags tell their numbers.
 fn put_names(file: &File, name: &str, category: &Variable) -> hdf5::Result<Array> {
     let mut words = Vec::new();
-    for code in category.values.to_real() {
-        let flag = category.flags.iter().find(|(value, _)| *value as f64 == code);
-        let (_, word) = flag.ok_or_else(|| format!("{name} has a value without a name"))?;
+    for word in category.names() {
+        let word = word.ok_or_else(|| format!("{name} has a value without a name"))?;
         words.push(string(word)?);
     }
     let array = file.new_dataset_builder().with_data(ArrayView1::from(&words)).create(name)?;

@@ -31,7 +31,10 @@ pub fn of_dataset(py: Python<'_>, dataset: Dataset) -> PyResult<Bound<'_, PyDict
         let own = labels(py, &coordinate, element)?;
         let dimensions = PyTuple::new(py, &coordinate.dimensions)?;
         let values = match name == DIRECTION.name {
-            true => names(py, &coordinate)?.into_any(),
+            true => {
+                let names = coordinate.names().into_iter().map(Option::unwrap_or_default);
+                PyList::new(py, names.collect::<Vec<_>>())?.into_any()
+            }
             false => array(py, coordinate.values, element),
         };
         variables.set_item(name, (dimensions, values, own))?;
@@ -122,13 +125,4 @@ fn value(py: Python<'_>, attribute: Attribute, element: Element) -> PyResult<Bou
         }
         Attribute::Flags(flags) => array(py, Values::integers(flags), element),
     })
-}
-
-/// A category as the names of its values.
-fn names<'py>(py: Python<'py>, category: &Variable) -> PyResult<Bound<'py, PyList>> {
-    let words = category.values.to_real().into_iter().map(|code| {
-        let flag = category.flags.iter().find(|(value, _)| *value as f64 == code);
-        flag.map_or(String::new(), |(_, word)| word.clone())
-    });
-    PyList::new(py, words.collect::<Vec<_>>())
 }
