@@ -1,22 +1,22 @@
-//! Continues the branches of a study and puts them into its file, beside the cases that it holds.
+//! Continues the branches of a study, follows its ramps, and puts both into its file, beside the cases that it holds.
 
 use std::time::Instant;
 
+use super::beside::Beside;
 use super::error::CampaignError;
 use super::kept::{Kept, check_branches};
-use super::report::{Event, Report, Reports, Stage};
+use super::report::{Event, Report, Reports};
 use super::request::{BranchesDone, Campaign, Complete};
 use super::result_file::prepare;
-use crate::run;
-use crate::store::{self, Dataset, add_branches, drop_branches, has_branches};
+use crate::store::{self, Dataset, drop_branches, has_branches};
 
 impl Campaign<'_> {
-    /// Continues the branches of the study and puts them into the file; cases that are there stay, and branches of
+    /// Continues the branches of the study, follows its ramps, and puts both into the file; cases that are there stay, and branches of
     /// this study that are there too, unless they are to be overwritten.
     ///
-    /// Fails if the study asks for no branches or the file holds results of something else.
+    /// Fails if the study asks for neither or the file holds results of something else.
     pub fn continue_branches(&self, report: &Report<'_>) -> Result<BranchesDone, CampaignError> {
-        if self.study.branches.is_empty() {
+        if !self.study.has_branches_or_ramps() {
             return Err(CampaignError::NoBranches);
         }
         self.study.check_text("the study")?;
@@ -33,14 +33,11 @@ impl Campaign<'_> {
         reports.send(Event::Accepted(older.as_ref()))?;
         drop(older);
         prepare(self.output)?;
-        reports.send(Event::Begun(Stage::Continuing, self.study.branches.len()))?;
-        let (begun, threads) = (Instant::now(), self.machine.threads);
-        let continued =
-            run::continue_branches(self.study, threads, || reports.step(Stage::Continuing))?;
+        let begun = Instant::now();
+        let found = Beside::of(self.study, self.machine.threads, &reports)?;
         let time = begun.elapsed();
-        reports.send(Event::Ended(Stage::Continuing))?;
-        self.put(&continued, &reports)?;
-        Ok(BranchesDone::Now { continued, time })
+        self.put(&found, &reports)?;
+        Ok(BranchesDone::Now { found, time })
     }
 
     /// Whether a file that is there has the branches of this study and is to stay.
@@ -49,11 +46,7 @@ impl Campaign<'_> {
     }
 
     /// Writes the branches beside what the file holds by now.
-    fn put(
-        &self,
-        continued: &[run::Continued],
-        reports: &Reports<'_>,
-    ) -> Result<(), CampaignError> {
+    fn put(&self, found: &Beside, reports: &Reports<'_>) -> Result<(), CampaignError> {
         // Cases that were joined meanwhile are in the file, and none can come before it is replaced.
         let _held = store::hold(self.output, |folder| reports.wait(folder))?;
         store::discard_unfinished(self.output)?;
@@ -63,7 +56,7 @@ impl Campaign<'_> {
         let of_case = store::numbers_of_case(self.study);
         let mut frame =
             self.without_branches(older.as_ref(), |name| !of_case.contains_key(name))?;
-        add_branches(&mut frame, self.study, continued);
+        found.put_into(&mut frame, self.study);
         match older {
             Some(older) => {
                 store::write_beside_cases(&older.archive, self.study, &frame, self.output)?;

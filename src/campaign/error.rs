@@ -47,7 +47,7 @@ pub enum CampaignError {
         /// Whether this version of the program wrote it.
         same_program: bool,
     },
-    /// The file holds branches of a study with another text, which would be lost.
+    /// The file holds branches or ramps of a study with another text, which would be lost.
     OtherBranches {
         /// The file.
         path: PathBuf,
@@ -179,7 +179,9 @@ impl fmt::Display for CampaignError {
         match self {
             CampaignError::Path { path, fault } => write!(f, "{}: {fault}", printable(path)),
             CampaignError::Study(faults) => faults.fmt(f),
-            CampaignError::NoBranches => f.write_str("the study asks for no [[branches]]"),
+            CampaignError::NoBranches => {
+                f.write_str("the study asks for no [[branches]] and no [[ramps]]")
+            }
             CampaignError::NoCase { index, cases } => {
                 let cases = counted(*cases, "case");
                 write!(f, "there is no case {index}: the study has {cases}, counted from 0")
@@ -193,7 +195,11 @@ impl fmt::Display for CampaignError {
                 write!(f, "{}: holds results of another {other}", printable(path))
             }
             CampaignError::OtherBranches { path } => {
-                write!(f, "{}: holds branches of a study with another text", printable(path))
+                write!(
+                    f,
+                    "{}: holds branches or ramps of a study with another text",
+                    printable(path)
+                )
             }
             CampaignError::NoSearches { path } => {
                 let path = printable(path);

@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, MutexGuard};
 
+use super::beside::Beside;
 use super::error::CampaignError;
 use super::joining::Joining;
-use super::report::{Event, Report, Reports, Stage};
+use super::report::{Event, Report, Reports};
 use super::until_stopped::until_stopped;
 use crate::flow::Stop;
 use crate::run::{self, Machine, Record, has_attractors, run_blocks};
-use crate::store::{self, Blocks, CaseVariable, Dataset, Variable, add_attractors, add_branches};
+use crate::store::{self, Blocks, CaseVariable, Dataset, Variable, add_attractors};
 use crate::study::{Study, spread};
 
 /// The results of `study` as its file would hold them, from the records of all of its cases, in the order of their indices.
@@ -73,7 +74,7 @@ impl InMemory {
         self.stop.ask();
     }
 
-    /// Computes the cases, and then the branches if they are wanted: the dataset that the file of the study would hold.
+    /// Computes the cases, and then the branches and ramps if they are wanted: the dataset that the file of the study would hold.
     ///
     /// Guarantees: the same numbers, labels and attributes as in the file, to the bit, but for the time in `created`.
     ///
@@ -86,17 +87,13 @@ impl InMemory {
 
     fn compute(&self, wanted: Wanted, reports: &Reports<'_>) -> Result<Dataset, CampaignError> {
         let study = &self.study;
-        if wanted.branches && study.branches.is_empty() {
+        if wanted.branches && !study.has_branches_or_ramps() {
             return Err(CampaignError::NoBranches);
         }
         let mut dataset = if wanted.cases { self.cases(reports)? } else { store::frame(study) };
         if wanted.branches {
-            reports.send(Event::Begun(Stage::Continuing, study.branches.len()))?;
-            let threads = self.machine.threads;
-            let continued =
-                run::continue_branches(study, threads, || reports.step(Stage::Continuing))?;
-            reports.send(Event::Ended(Stage::Continuing))?;
-            add_branches(&mut dataset, study, &continued);
+            let found = Beside::of(study, self.machine.threads, reports)?;
+            found.put_into(&mut dataset, study);
         }
         Ok(dataset)
     }

@@ -12,6 +12,7 @@ mod collect;
 mod compute;
 pub mod conditions;
 pub mod conditions_of_draws;
+mod beside;
 mod continuation;
 pub mod count;
 pub mod error;
@@ -49,6 +50,7 @@ mod until_stopped;
 pub mod verify;
 
 pub use answer::{Answer, Named, Refined, Searched};
+pub use beside::Beside;
 pub use error::{CampaignError, Cause};
 pub use in_memory::{InMemory, Moment, Snapshot, Wanted, results_in_memory};
 pub use kept::Kept;

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::run::{Continued, Machine};
+use super::beside::Beside;
+use crate::run::Machine;
 use crate::store::Archive;
 use crate::study::Study;
 
@@ -41,16 +42,16 @@ pub enum Done {
     Shared(PathBuf),
 }
 
-/// What came of the continuation of the branches of a study.
+/// What came of the branches and ramps of a study.
 #[derive(Debug)]
 pub enum BranchesDone {
     /// They were in the file already.
     Before(Complete),
     /// They have been continued and put into the file.
     Now {
-        /// What came of each, in the order of the study.
-        continued: Vec<Continued>,
-        /// The time that the continuation took.
+        /// What came of them.
+        found: Beside,
+        /// The time that this took.
         time: Duration,
     },
 }

@@ -4,19 +4,28 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::branch::{Curve, End, SpecialKind, is_followed};
+use crate::campaign::Beside;
+use crate::campaign::count::counted;
 use crate::description::Parameter;
 use crate::motion::branch::{Branch, Found, Special};
 use crate::quantity::printable::printable;
-use crate::run::Continued;
 use crate::study::{Continuation, FirstOrbit, Study};
 
-/// What came of the branches of `study`, and which file keeps it.
-pub fn summary(study: &Study, continued: &[Continued], output: &Path, seconds: f64) -> String {
+/// What came of the branches of `study`, and which file keeps it, and its ramps, too.
+pub fn summary(study: &Study, found: &Beside, output: &Path, seconds: f64) -> String {
+    let Beside { continued, ramped } = found;
     let all: Vec<&Branch> = continued.iter().flatten().flat_map(|it| &it.branches).collect();
     let (branches, points) = (all.len(), all.iter().map(|it| it.points.len()).sum::<usize>());
     let plural = if branches == 1 { "branch" } else { "branches" };
     let shown = printable(output);
-    let mut text = format!("{shown}: {branches} {plural}, {points} points in {seconds:.1} s\n");
+    let of_branches = format!("{branches} {plural}, {points} points");
+    let of_ramps = counted(ramped.len(), "ramp");
+    let told = match (study.branches.is_empty(), study.ramps.is_empty()) {
+        (_, true) => of_branches,
+        (true, false) => of_ramps,
+        (false, false) => format!("{of_branches}, {of_ramps}"),
+    };
+    let mut text = format!("{shown}: {told} in {seconds:.1} s\n");
     for (continuation, outcome) in study.branches.iter().zip(continued) {
         match outcome {
             Ok(found) => write_found(&mut text, continuation, found),
@@ -178,7 +187,8 @@ fn kind_name(kind: SpecialKind) -> &'static str {
     SpecialKind::NAMES.iter().find(|(_, known)| *known == kind).map_or("", |(name, _)| name)
 }
 
-fn quantity(parameter: Parameter, value: f64) -> String {
+/// A value of a parameter with its unit.
+pub(super) fn quantity(parameter: Parameter, value: f64) -> String {
     match parameter.dimension().unit() {
         "1" => ten_digits(value),
         unit => format!("{} {unit}", ten_digits(value)),
@@ -279,7 +289,8 @@ to = \"5 N\"
         let not_left = vec![(0, 0)];
         let found = Found { branches: vec![branch, ring], curves: vec![curve], not_left };
         let continued = [Ok(found), Err(NotContinued::NoOrbit)];
-        let text = summary(&study, &continued, Path::new("a.h5"), 2.0);
+        let found = Beside { continued: continued.to_vec(), ramped: Vec::new() };
+        let text = summary(&study, &found, Path::new("a.h5"), 2.0);
         let expected = "\
 a.h5: 2 branches, 8 points in 2.0 s
 

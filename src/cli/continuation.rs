@@ -1,4 +1,4 @@
-//! `capsulemap continue`: the branches of a study, into the file of its results.
+//! `capsulemap continue`: the branches and ramps of a study, into the file of its results.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -8,15 +8,16 @@ use clap::Args;
 use super::branch_summary::summary;
 use super::drawing::{FormatChoice, draw_from, formats, rehearse};
 use super::failure::Failure;
+use super::ramp_summary;
 use super::terminal::{notify, print};
 use super::watch::Watch;
 use crate::campaign::{
-    BranchesDone, Campaign, CampaignError, Event, Kept, output_path, read_study,
+    Beside, BranchesDone, Campaign, CampaignError, Event, Kept, output_path, read_study,
 };
 use crate::figure::Place;
 use crate::quantity::printable::printable;
-use crate::run::{Machine, NotContinued};
-use crate::store::{self, Archive, add_branches, folder};
+use crate::run::Machine;
+use crate::store::{self, Archive, folder};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -24,19 +25,19 @@ Examples:
   capsulemap continue STUDY.toml --output /data/branches.h5 --threads 2
   capsulemap sweep STUDY.toml && capsulemap continue STUDY.toml --formats pdf";
 
-/// Continue periodic orbits in parameters.
+/// Continue periodic orbits in parameters, and follow motions along ramps of them.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Continue {
-    /// The study, a TOML file with [[branches]].
+    /// The study, a TOML file with [[branches]] or [[ramps]].
     study: PathBuf,
-    /// The file to add the branches to; results/NAME/NAME.h5 for a study NAME.toml by default.
+    /// The file to add them to; results/NAME/NAME.h5 for a study NAME.toml by default.
     #[arg(long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
     /// Worker threads; one per core by default.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// Continue the branches again, and replace a file of results that another study left under that name, and files
+    /// Continue and follow them again, and replace a file of results that another study left under that name, and files
     /// in the place of figures.
     #[arg(long)]
     overwrite: bool,
@@ -53,8 +54,10 @@ impl Continue {
     pub fn run(&self) -> Result<(), Failure> {
         let name = printable(&self.study).to_string();
         let study = read_study(&self.study)?;
-        if study.branches.is_empty() {
-            let message = format!("{name}: asks for no [[branches]]; studies/README.md shows how");
+        if !study.has_branches_or_ramps() {
+            let message = format!(
+                "{name}: asks for no [[branches]] and no [[ramps]]; studies/README.md shows how"
+            );
             return Err(Failure::request(message));
         }
         let notes = study.remarks.iter().cloned().chain(study.branches_without_effect());
@@ -72,7 +75,7 @@ impl Continue {
         Ok(())
     }
 
-    /// The file with the branches, which are continued unless they are there.
+    /// The file with the branches and ramps, which are computed unless they are there.
     fn continued(&self, campaign: &Campaign<'_>, place: &Place<'_>) -> Result<Archive, Failure> {
         let Campaign { study, output, .. } = *campaign;
         let watch = Watch::new(&self.study, study);
@@ -80,7 +83,7 @@ impl Continue {
             Event::Before { .. } => {
                 let shown = printable(output);
                 notify(&format!(
-                    "{shown}: branches are there already, by this program from this study"
+                    "{shown}: branches and ramps are there already, by this program from this study"
                 ));
                 ControlFlow::Continue(())
             }
@@ -88,19 +91,20 @@ impl Continue {
             other => watch.hear(other),
         });
         if let Err(error @ CampaignError::OtherBranches { .. }) = done {
-            let advice = "--overwrite continues the branches again and keeps the cases";
+            let advice = "--overwrite computes branches and ramps again and keeps the cases";
             return Err(Failure::request(format!("{error}; {advice}")));
         }
         match watch.end(done)? {
             BranchesDone::Before(file) => Ok(file.archive),
-            BranchesDone::Now { continued, time } => {
-                print(&summary(study, &continued, output, time.as_secs_f64()))?;
+            BranchesDone::Now { found, time } => {
+                let of_ramps = ramp_summary::summary(study, &found.ramped);
+                print(&(summary(study, &found, output, time.as_secs_f64()) + &of_ramps))?;
                 store::open(output).map_err(Failure::machine)
             }
         }
     }
 
-    /// Draws the figures as if no branch could be continued.
+    /// Draws the figures as if no branch could be continued and no ramp followed.
     fn rehearse(
         &self,
         campaign: &Campaign<'_>,
@@ -112,8 +116,7 @@ impl Continue {
         }
         let study = campaign.study;
         let mut dataset = campaign.without_branches(older, |_| true)?;
-        let nothing = vec![Err(NotContinued::NoOrbit); study.branches.len()];
-        add_branches(&mut dataset, study, &nothing);
+        Beside::none(study).put_into(&mut dataset, study);
         let drawn = rehearse(&dataset, study, place);
         drawn.map_err(|failure| failure.within(&printable(&self.study).to_string()))
     }

@@ -178,9 +178,11 @@ fn waits_for(drawing: &Drawing, study: &Study, holds: Holds) -> Option<&'static 
     }
 }
 
-/// Whether the abscissa of a figure is a parameter along which the study continues a branch and varies no case.
+/// Whether the abscissa of a figure is a parameter of a branch or a ramp of the study that no case varies.
 fn shows_branches_alone(drawing: &Drawing, study: &Study) -> bool {
     let Some(x) = drawing.x.as_deref() else { return false };
     let is_varied = study.case_set.varied().iter().any(|it| it.name() == x);
-    !is_varied && study.branches.iter().any(|branch| branch.along.symbol() == x)
+    let of_branches = study.branches.iter().map(|branch| branch.along);
+    let mut beside = of_branches.chain(study.ramps.iter().map(|ramp| ramp.along));
+    !is_varied && beside.any(|along| along.symbol() == x)
 }

@@ -53,12 +53,13 @@ fn text(campaign: &Campaign<'_>, task: Task, blocks: &BlockStatus, probe: &Probe
     let memory = memory(study, machine.threads(), probe);
     let [computing, joining] = [memory.computing, memory.joining].map(size);
     let seconds = seconds(probe, left, machine.threads());
-    let more = if study.branches.is_empty() { "" } else { ", and more for branches" };
-    let beside = match (has_attractors(study), study.branches.is_empty()) {
-        (true, true) => ", and more for attractors",
-        (false, false) => ", and more for branches",
-        (true, false) => ", and more for attractors and branches",
-        (false, true) => "",
+    let has_more = study.has_branches_or_ramps();
+    let more = if has_more { ", and more for branches and ramps" } else { "" };
+    let beside = match (has_attractors(study), has_more) {
+        (true, false) => ", and more for attractors",
+        (false, true) => ", and more for branches and ramps",
+        (true, true) => ", and more for attractors, branches and ramps",
+        (false, false) => "",
     };
     let figures =
         figures(study).map_or(String::new(), |it| format!(", {} more for a figure", size(it)));

@@ -30,6 +30,7 @@ mod optima_notes;
 mod optima_text;
 mod phases;
 mod progress;
+mod ramp_summary;
 mod readable;
 mod report;
 mod scheduler;

@@ -17,7 +17,7 @@ use super::style::{BLUE, INK, VERMILION};
 use super::text::Text;
 use super::varied::along;
 use super::view::View;
-use super::{attractors, category, event_marks, track};
+use super::{attractors, category, event_marks, ramp_points, track};
 use crate::description::Description;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, Entry, Place, section};
 use crate::study::Drawing;
@@ -68,6 +68,7 @@ fn reads(drawing: &Drawing, model: &'static Description) -> Names {
         .and_named(drawing.colour_by.clone())
         .and_all(event_marks::reads(model))
         .and_all(track::reads(&outputs, model))
+        .and_all(ramp_points::reads(&outputs, model))
         .and_named(outputs)
 }
 
@@ -177,7 +178,8 @@ fn points(
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
     let Cases { free, values, per_value, .. } = &contents.cases;
     // Orbits may have been continued alone, or along what is no axis.
-    let is_continued = view.dataset.variable(&Place::Branch.name(output)).is_some();
+    let is_beside = |place: Place| view.dataset.variable(&place.name(output)).is_some();
+    let is_continued = is_beside(Place::Branch) || is_beside(Place::Ramp);
     if is_continued && (values.is_empty() || view.dataset.variable(output).is_none()) {
         return Ok(branches.iter().map(|_| Vec::new()).collect());
     }

@@ -14,6 +14,7 @@ use super::measured::MeasuredPoints;
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::paint::Paint;
 use super::panel::{Panel, Pointing};
+use super::ramp_points::RampPoints;
 use super::scale::{Scale, Spacing, finite_range};
 use super::style::{ONE_COLUMN, UNDECIDED_DOT};
 use super::symbol::Symbol;
@@ -66,6 +67,8 @@ pub struct Contents<'a> {
     pub clouds: Vec<Vec<Vec<Dot>>>,
     /// The symbols of events, by output; empty where there are none.
     pub symbols: Vec<Vec<Placed>>,
+    /// The ramps along the axis of the cases.
+    pub ramps: RampPoints,
     /// The measured points.
     pub measured: MeasuredPoints,
 }
@@ -75,9 +78,10 @@ impl<'a> Contents<'a> {
     pub fn of_branches(view: &View<'_>, cases: Cases<'a>, outputs: Vec<String>) -> Contents<'a> {
         let lines =
             outputs.iter().map(|output| BranchLines::shown(view, cases.axis, output)).collect();
+        let ramps = RampPoints::over(view, cases.axis, &outputs);
         let measured = MeasuredPoints::none(&outputs);
         let (clouds, symbols) = (Vec::new(), Vec::new());
-        Contents { cases, outputs, lines, paint: None, clouds, symbols, measured }
+        Contents { cases, outputs, lines, paint: None, clouds, symbols, ramps, measured }
     }
 
     /// The points of a case, which has a part of the `numbers` of all; `usual` is their colour where the request names none.
@@ -102,14 +106,15 @@ impl<'a> Contents<'a> {
         let dots = self.clouds[index].iter().flatten().map(|dot| dot.at.1);
         dots.chain(self.lines[index].places().map(|at| at.1))
             .chain(self.symbols.get(index).into_iter().flatten().map(|it| it.2))
+            .chain(self.ramps.ordinates(index))
             .chain(self.measured.ordinates(index))
             .collect()
     }
 
-    /// How far branches and measured points reach along the abscissa.
+    /// How far branches, ramps and measured points reach along the abscissa.
     fn reached(&self) -> Vec<f64> {
         let of_branches = self.lines.iter().flat_map(BranchLines::places).map(|at| at.0);
-        of_branches.chain(self.measured.abscissae()).collect()
+        of_branches.chain(self.ramps.abscissae()).chain(self.measured.abscissae()).collect()
     }
 }
 
@@ -182,6 +187,7 @@ impl<'a> Diagram<'a> {
         for (index, panel) in panels.iter().flatten().enumerate() {
             below(&mut canvas, panel, &outputs[index]);
             self.draw_points(&mut canvas, panel, index, view.drawing, style);
+            self.contents.ramps.draw(&mut canvas, panel, index, view);
             lines[index].draw(&mut canvas, panel);
             measured.draw(&mut canvas, panel, index);
             panel.finish(&mut canvas);
@@ -258,6 +264,7 @@ impl<'a> Diagram<'a> {
         // What the sweep and the branches both have is named once.
         let known: Vec<Mark> = legend.iter().map(|(mark, _)| *mark).collect();
         legend.extend(of_lines.into_iter().filter(|(mark, _)| !known.contains(mark)));
+        legend.extend(self.contents.ramps.legend());
         for (mark, words) in paint.iter().flat_map(|it| it.legend(|case| self.is_seen(case))) {
             let is_filled = matches!(mark, Mark::Filled(_));
             let mark = if is_filled { Mark::Disc(UNDECIDED_DOT, 1.6) } else { mark };

@@ -48,6 +48,7 @@ mod phase_portrait;
 mod plane;
 pub mod plot;
 mod quantity;
+mod ramp_points;
 mod raster;
 mod registry;
 mod requested;

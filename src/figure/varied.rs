@@ -1,15 +1,15 @@
-//! The parameters in which the orbits of a file of results were continued.
+//! The parameters in which the orbits of a file of results were continued, or motions followed along ramps.
 
-use crate::store::catalogue::{CURVE_POINT, Entry, Place, REQUEST_ALONG};
+use crate::store::catalogue::{CURVE_POINT, Entry, Place, RAMP_ALONG, REQUEST_ALONG};
 use crate::store::dataset::Dataset;
 
 /// What is read here.
-pub const READS: [Entry; 1] = [REQUEST_ALONG];
+pub const READS: [Entry; 2] = [REQUEST_ALONG, RAMP_ALONG];
 
-/// The parameters along which orbits were continued, in the order of the study.
+/// The parameters along which orbits were continued or motions followed, in the order of the study.
 pub fn along(dataset: &Dataset) -> Vec<&str> {
     let mut names = Vec::new();
-    if let Some(variable) = dataset.variable(REQUEST_ALONG.name) {
+    for variable in READS.iter().filter_map(|entry| dataset.variable(entry.name)) {
         for code in variable.values.to_real() {
             let flag = variable.flags.iter().find(|(value, _)| *value as f64 == code);
             names.extend(flag.map(|(_, name)| name.as_str()).filter(|it| !names.contains(it)));

@@ -11,12 +11,12 @@ use crate::description::Parameter;
 use crate::run::Continued;
 use crate::study::{Continuation, Study};
 
-/// Whether a name is that of a dimension of the branches, none of which is an axis of a study.
-pub fn is_of_branches(dimension: &str) -> bool {
-    OF_BRANCHES.iter().any(|entry| entry.name == dimension)
+/// Whether a name is that of a dimension of the branches or ramps, none of which is an axis of a study.
+pub fn is_beside_cases(dimension: &str) -> bool {
+    OF_BRANCHES.iter().chain(&OF_RAMPS).any(|entry| entry.name == dimension)
 }
 
-/// Whether `dataset` holds branches, which `capsulemap continue` finds.
+/// Whether `dataset` holds branches and ramps, be they none, which `capsulemap continue` finds.
 pub fn has_branches(dataset: &Dataset) -> bool {
     dataset.coordinate(REQUEST.name).is_some()
 }
@@ -26,25 +26,28 @@ pub fn has_cases(dataset: &Dataset) -> bool {
     dataset.variable(OUTCOME.name).is_some()
 }
 
-/// Removes the branches from `dataset`.
+/// Removes the branches and the ramps from `dataset`.
 pub fn drop_branches(dataset: &mut Dataset) {
-    dataset.coordinates.retain(|(name, _)| !is_of_branches(name));
-    dataset.variables.retain(|_, variable| !lies_over_branches(variable));
-    dataset.texts.remove(BRANCH_NAMES);
+    dataset.coordinates.retain(|(name, _)| !is_beside_cases(name));
+    dataset.variables.retain(|_, variable| !lies_beside_cases(variable));
+    NAMES.iter().for_each(|names| drop(dataset.texts.remove(*names)));
 }
 
-/// Takes the branches of `older` over into `dataset`.
+/// Takes the branches and the ramps of `older` over into `dataset`.
 pub fn keep_branches(dataset: &mut Dataset, older: &Dataset) {
-    let coordinates = older.coordinates.iter().filter(|(name, _)| is_of_branches(name));
+    let coordinates = older.coordinates.iter().filter(|(name, _)| is_beside_cases(name));
     dataset.coordinates.extend(coordinates.cloned());
-    let variables = older.variables.iter().filter(|(_, variable)| lies_over_branches(variable));
+    let variables = older.variables.iter().filter(|(_, variable)| lies_beside_cases(variable));
     dataset.variables.extend(variables.map(|(name, variable)| (name.clone(), variable.clone())));
-    let names = older.texts.get(BRANCH_NAMES);
-    dataset.texts.extend(names.map(|names| (BRANCH_NAMES.to_owned(), names.clone())));
+    let names = older.texts.iter().filter(|(name, _)| NAMES.contains(&name.as_str()));
+    dataset.texts.extend(names.map(|(name, names)| (name.clone(), names.clone())));
 }
 
-fn lies_over_branches(variable: &Variable) -> bool {
-    variable.dimensions.iter().any(|it| is_of_branches(it))
+/// The texts that name branches and ramps.
+const NAMES: [&str; 2] = [BRANCH_NAMES, RAMP_NAMES];
+
+fn lies_beside_cases(variable: &Variable) -> bool {
+    variable.dimensions.iter().any(|it| is_beside_cases(it))
 }
 
 /// Adds what came of the branches of `study`, in its order.

@@ -10,7 +10,7 @@ use hdf5::{Dataset as Array, File, Hyperslab, SliceOrIndex};
 use ndarray::{ArrayD, IxDyn};
 
 use super::attribute::is_of_format;
-use super::branches::is_of_branches;
+use super::branches::is_beside_cases;
 use super::catalogue::OUTCOME;
 use super::names::*;
 use super::own_layout;
@@ -156,7 +156,7 @@ impl Archive {
 
     /// The branches that `capsulemap continue` has found.
     pub fn branches(&self) -> Result<Dataset, StoreError> {
-        self.dataset(|_, dimensions| dimensions.iter().any(|it| is_of_branches(it)))
+        self.dataset(|_, dimensions| dimensions.iter().any(|it| is_beside_cases(it)))
     }
 
     /// The dataset with those variables that are `wanted`, by name; the others have their labels, but no

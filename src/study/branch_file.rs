@@ -26,7 +26,10 @@ const MOST_DOUBLINGS: u64 = 20;
 /// Longest period of a first orbit [cycles].
 const LONGEST_PERIOD: u64 = 100_000;
 
-/// What the rest of the study gives to its branches.
+/// What is expected as the parameter of a branch or of its curves.
+const CONTINUED: &str = "the parameter to continue the orbit in";
+
+/// What the rest of the study gives to its branches and ramps.
 pub(super) struct Surroundings<'s> {
     /// Its cases.
     pub case_set: &'s CaseSet,
@@ -54,7 +57,7 @@ pub(super) fn read_branches(top: &Table<'_, '_>, study: &Surroundings<'_>) -> Ve
     let list = top.entry("branches");
     let entries = list.map(|list| list.list()).unwrap_or_default();
     for table in entries.iter().filter_map(Entry::table) {
-        let name = read_name(&table);
+        let name = read_name(&table, "a name for the branch");
         if let Some(twice) = table.entry("name").filter(|_| branches.iter().any(|b| b.name == name))
         {
             twice.fault(format!("a second branch \"{name}\""));
@@ -67,9 +70,9 @@ pub(super) fn read_branches(top: &Table<'_, '_>, study: &Surroundings<'_>) -> Ve
 }
 
 /// The name, which stands in one line of the file of results.
-fn read_name(table: &Table<'_, '_>) -> String {
+pub(super) fn read_name(table: &Table<'_, '_>, expected: &str) -> String {
     let Some(entry) = table.entry("name") else {
-        table.missing("name", "a name for the branch");
+        table.missing("name", expected);
         return String::new();
     };
     let name = entry.text().unwrap_or("");
@@ -81,7 +84,7 @@ fn read_name(table: &Table<'_, '_>) -> String {
 
 /// A branch without its name; none where what it needs is missing, which is noted as a fault.
 fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Continuation> {
-    let along = read_parameter(table, "along", study);
+    let along = read_parameter(table, "along", study, CONTINUED);
     // The ends are known keys where the parameter is not, too.
     ["from", "to"].into_iter().for_each(|key| drop(table.entry(key)));
     let second = table.table("second").map(|second| read_second(second, along, study));
@@ -89,7 +92,7 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
         along.into_iter().chain(second.and_then(|(parameter, _)| parameter)).collect();
     let range = along.and_then(|along| read_range(table, along, study));
     let at = table.table("at");
-    let parameters = read_place(table, at.as_ref(), study, &varied);
+    let parameters = read_place(table, at.as_ref(), study, &varied, None);
     let start = read_own_start(table, study);
     let first = read_first(table);
     let (longest_step, most_points) = read_steps(table);
@@ -120,19 +123,24 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
 }
 
 /// Where the first orbit is looked for.
-fn read_own_start(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Start {
+pub(super) fn read_own_start(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Start {
     let Some(table) = table.table("start") else { return study.start.clone() };
     let start = read_state(&table, study.start.clone(), &[]);
     table.finish();
     start
 }
 
-/// The parameter that `key` names.
-fn read_parameter(table: &Table<'_, '_>, key: &str, study: &Surroundings<'_>) -> Option<Parameter> {
+/// The parameter that `key` names, which is what is `expected` there.
+pub(super) fn read_parameter(
+    table: &Table<'_, '_>,
+    key: &str,
+    study: &Surroundings<'_>,
+    expected: &str,
+) -> Option<Parameter> {
     let names: Vec<(&str, Parameter)> =
         study.base.model().parameters().map(|it| (it.symbol(), it)).collect();
     let Some(entry) = table.entry(key) else {
-        table.missing(key, "the parameter to continue the orbit in");
+        table.missing(key, expected);
         return None;
     };
     entry.one_of("parameter", &names)
@@ -184,7 +192,7 @@ fn read_second(
     along: Option<Parameter>,
     study: &Surroundings<'_>,
 ) -> (Option<Parameter>, Option<[f64; 2]>) {
-    let parameter = read_parameter(&table, "name", study);
+    let parameter = read_parameter(&table, "name", study, CONTINUED);
     if let (Some(name), true) = (table.entry("name"), parameter.is_some() && parameter == along) {
         name.fault("is the parameter that the orbit is continued in already");
     }
@@ -196,17 +204,18 @@ fn read_second(
 }
 
 /// The parameters at which the first orbit is: those of the study, and those that `at` gives; none after a
-/// fault.
-fn read_place(
+/// fault. One that is given elsewhere has no place in `at`.
+pub(super) fn read_place(
     table: &Table<'_, '_>,
     at: Option<&Table<'_, '_>>,
     study: &Surroundings<'_>,
     varied: &[Parameter],
+    elsewhere: Option<Parameter>,
 ) -> Option<Parameters> {
     let mut parameters = study.base.clone();
     let mut complete = true;
-    let open: Vec<Parameter> =
-        study.base.model().parameters().filter(|parameter| study.varies(*parameter)).collect();
+    let is_open = |it: &Parameter| study.varies(*it) && elsewhere != Some(*it);
+    let open: Vec<Parameter> = study.base.model().parameters().filter(is_open).collect();
     let given: BTreeMap<String, Entry<'_, '_>> =
         at.map(Table::entries).unwrap_or_default().into_iter().collect();
     for (name, entry) in &given {

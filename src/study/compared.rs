@@ -22,6 +22,7 @@ impl Study {
             refine,
             outputs,
             branches,
+            ramps,
             drawings,
         } = &self.with_varied_of(read);
         let mut compared = Compared { words, faults: Vec::new() };
@@ -38,6 +39,7 @@ impl Study {
             if let Some(Refine::Outputs(_)) = refine { "map.refine" } else { "basin.refine" };
         compared.part(refined_by, refine, &read.refine);
         compared.each("branches", branches, &read.branches);
+        compared.each("ramps", ramps, &read.ramps);
         compared.each("figures", drawings, &read.drawings);
         compared.faults
     }

@@ -38,7 +38,8 @@ fn first_conflicts(study: &Study) -> Option<Vec<Remark>> {
         study.branches.iter().find_map(|it| conflicts(&it.parameters, it.section_phase));
     // What is optional alone can be in conflict; without it there may be millions of values to look at for nothing. Where it varies, what
     // it would be unless it did is no case.
-    of_branches.or_else(|| match base.parameters.have_optional_parts() {
+    let of_ramps = || study.ramps.iter().find_map(|it| conflicts(&it.parameters, it.section_phase));
+    of_branches.or_else(of_ramps).or_else(|| match base.parameters.have_optional_parts() {
         true => in_what_varies(study, base),
         false => conflicts(&base.parameters, base.section_phase),
     })

@@ -6,7 +6,8 @@ use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
 use super::grid::Chain;
 use super::{
-    Axis, CaseSet, Continuation, Coordinate, Direction, Drawing, Grid, Inherit, Refine, Refinement,
+    Axis, CaseSet, Continuation, Coordinate, Direction, Drawing, Grid, Inherit, Ramp, Refine,
+    Refinement,
 };
 use crate::description::{Description, Output, Parameters, State};
 use crate::model::Model;
@@ -45,9 +46,14 @@ pub struct Study {
     pub outputs: Vec<Output>,
     /// The branches of periodic orbits to continue.
     pub branches: Vec<Continuation>,
+    /// The motions along which a parameter changes steadily.
+    pub ramps: Vec<Ramp>,
     /// The figures to draw.
     pub drawings: Vec<Drawing>,
 }
+
+/// A study without ramps as it is shown: left out of fingerprints, which stay those of studies before there were ramps.
+const NO_RAMPS: &str = ", ramps: []";
 
 impl Default for Study {
     /// That of the model where none is named, see [`Study::of`].
@@ -73,6 +79,7 @@ impl Study {
             refine: None,
             outputs: usual_outputs(&Parameters::of(model)),
             branches: Vec::new(),
+            ramps: Vec::new(),
             drawings: Vec::new(),
         }
     }
@@ -109,6 +116,11 @@ impl Study {
         self.refine.as_ref().map(|_| Refinement::of(&self.shape()))
     }
 
+    /// Whether it asks for branches or ramps, which are computed beside its cases.
+    pub fn has_branches_or_ramps(&self) -> bool {
+        !(self.branches.is_empty() && self.ramps.is_empty())
+    }
+
     fn grid(&self) -> Option<&Grid> {
         match &self.case_set {
             CaseSet::Grid(grid) => Some(grid),
@@ -116,20 +128,22 @@ impl Study {
         }
     }
 
-    /// Differs between studies whose cases or records differ in anything; titles, figures, branches and the form
-    /// in which a study is written make no difference.
+    /// Differs between studies whose cases or records differ in anything; titles, figures, branches, ramps and the
+    /// form in which a study is written make no difference.
     pub fn fingerprint(&self) -> String {
         let computed = Study {
             title: String::new(),
             text: String::new(),
             remarks: Vec::new(),
             branches: Vec::new(),
+            ramps: Vec::new(),
             drawings: Vec::new(),
             ..self.clone()
         };
         let mut hasher = SipHasher13::new();
         // Numbers are shown with all the digits that distinguish them.
-        format!("{computed:?}").hash(&mut hasher);
+        let shown = format!("{computed:?}").replace(NO_RAMPS, "");
+        shown.hash(&mut hasher);
         if let Some(equations) = self.base.model().equations {
             equations.tables.hash(&mut hasher);
         }

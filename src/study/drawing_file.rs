@@ -6,7 +6,7 @@ use super::appearance::{Setting, SettingText, Settings, dimension_of};
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
 use super::drawing::{COLOURED_BY, Held, Size, Sweep, Texts, check_panels, check_text};
-use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine};
+use super::{Axis, CaseSet, Coordinate, Drawing, DrawingKind, Refine};
 use crate::description::{Output, Parameter};
 use crate::quantity::{Dimension, parse_quantity};
 
@@ -16,18 +16,18 @@ const MILLIMETRE: f64 = 1e-3;
 /// Longest name of a figure [bytes]; with an extension it still is a file name everywhere.
 const LONGEST_NAME: usize = 200;
 
-/// The figures of a study with the cases of `case_set` and `branches` that keeps `outputs`.
+/// The figures of a study with the cases of `case_set` that keeps `outputs`; branches and ramps vary what is `varied_beside`.
 pub(super) fn read_drawings(
     top: &Table<'_, '_>,
     case_set: &CaseSet,
-    branches: &[Continuation],
+    varied_beside: &[Parameter],
     outputs: &[Output],
     refine: Option<&Refine>,
 ) -> Vec<Drawing> {
     let entries = top.entry("figures").map(|entry| entry.list()).unwrap_or_default();
     let mut drawings: Vec<Drawing> = Vec::new();
     for table in entries.iter().filter_map(Entry::table) {
-        let drawing = read_drawing(&table, case_set.axes(), branches, outputs);
+        let drawing = read_drawing(&table, case_set.axes(), varied_beside, outputs);
         if let (CaseSet::Draws(_), Some(kind)) = (case_set, table.entry("kind")) {
             refuse_without_grid(&kind, drawing.kind);
         }
@@ -65,11 +65,11 @@ fn refuse_without_grid(entry: &Entry<'_, '_>, kind: DrawingKind) {
 fn read_drawing(
     table: &Table<'_, '_>,
     axes: &[Axis],
-    branches: &[Continuation],
+    varied_beside: &[Parameter],
     outputs: &[Output],
 ) -> Drawing {
     let kind = read_kind(table);
-    let names = abscissae(kind, axes, branches);
+    let names = abscissae(kind, axes, varied_beside);
     let (at, panels) = table.table("at").map(|at| read_at(&at, axes, kind)).unwrap_or_default();
     Drawing {
         name: table.entry("name").and_then(|entry| read_name(&entry)).unwrap_or_default(),
@@ -143,14 +143,14 @@ fn read_settings(table: &Table<'_, '_>) -> Settings {
     settings
 }
 
-/// What a figure of this kind can run along: the axes, and the parameters of branches where it shows them.
+/// What a figure of this kind can run along: the axes, and the parameters of branches and ramps where it shows them.
 fn abscissae(
     kind: Option<DrawingKind>,
     axes: &[Axis],
-    branches: &[Continuation],
+    varied_beside: &[Parameter],
 ) -> Vec<(&'static str, &'static str)> {
     let shows_branches = kind.is_some_and(|kind| kind.keys().continued);
-    let varied = branches.iter().filter(|_| shows_branches).flat_map(Continuation::varied);
+    let varied = varied_beside.iter().filter(|_| shows_branches).copied();
     let mut names: Vec<_> = axes.iter().map(|axis| axis.coordinate.name()).collect();
     for name in varied.map(Parameter::symbol) {
         if !names.contains(&name) {

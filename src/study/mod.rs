@@ -20,6 +20,8 @@ pub(crate) mod layout;
 mod named_model;
 pub mod named_system;
 mod parameter_table;
+pub mod ramp;
+mod ramp_file;
 mod refine_file;
 pub mod refinement;
 mod start_file;
@@ -42,4 +44,5 @@ pub use drawing::{
 };
 pub use draws::{DrawKind, Draws, Range};
 pub use grid::{Direction, Grid, Inherit};
+pub use ramp::{Beginning, Ramp};
 pub use refinement::{Refine, Refinement, Refining};

@@ -11,11 +11,12 @@ use super::drawing_file::read_drawings;
 use super::include;
 use super::named_model::{check_model, model_in};
 use super::parameter_table::{ParameterTable, read_parameters};
+use super::ramp_file::read_ramps;
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
 use super::without_effect::given_without_effect;
 use super::{CaseSet, Continuation, Coordinate, Refine};
-use crate::description::{Output, Parameters};
+use crate::description::{Output, Parameter, Parameters};
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
 use crate::quantity::Dimension;
@@ -70,7 +71,13 @@ fn read_study(top: &Table<'_, '_>) -> Study {
     let refine = read_map(top, &case_set, &outputs).or(basin.refine.then_some(Refine::Attractors));
     let surroundings = Surroundings { case_set: &case_set, base: &base, start: start.clone() };
     let branches = read_branches(top, &surroundings);
-    let with_all_parts = with_parts(&base, &varied_anywhere(&case_set, &branches));
+    let ramps = read_ramps(top, &surroundings);
+    let varied_beside: Vec<Parameter> = branches
+        .iter()
+        .flat_map(Continuation::varied)
+        .chain(ramps.iter().map(|ramp| ramp.along))
+        .collect();
+    let with_all_parts = with_parts(&base, &varied_anywhere(&case_set, &varied_beside));
     remarks.extend(given_without_effect(&with_all_parts, &given));
     Study {
         title: String::new(),
@@ -82,18 +89,19 @@ fn read_study(top: &Table<'_, '_>) -> Study {
         section_phase: start.section_phase,
         protocol,
         early_decision: basin.early_decision,
-        drawings: read_drawings(top, &case_set, &branches, &outputs, refine.as_ref()),
+        drawings: read_drawings(top, &case_set, &varied_beside, &outputs, refine.as_ref()),
         refine,
         outputs,
         branches,
+        ramps,
         case_set,
     }
 }
 
-/// What the cases or a branch vary.
-fn varied_anywhere(case_set: &CaseSet, branches: &[Continuation]) -> Vec<Coordinate> {
-    let of_branches = branches.iter().flat_map(Continuation::varied);
-    case_set.varied().into_iter().chain(of_branches.map(Coordinate::Parameter)).collect()
+/// What the cases, a branch or a ramp vary.
+fn varied_anywhere(case_set: &CaseSet, varied_beside: &[Parameter]) -> Vec<Coordinate> {
+    let beside = varied_beside.iter().copied().map(Coordinate::Parameter);
+    case_set.varied().into_iter().chain(beside).collect()
 }
 
 fn read_title(top: &Table<'_, '_>) -> String {

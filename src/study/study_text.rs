@@ -4,12 +4,12 @@ use super::compared::{OUTDATED, UNWRITTEN};
 use super::continuation::FirstOrbit;
 use super::drawing_text::write_drawing;
 use super::draws::Range;
-use super::toml_text::{Document, inline, list, number, quantity, text};
+use super::toml_text::{Document, inline, list, number, plain_quantity, quantity, text};
 use super::{
-    Axis, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit, Refine, Spacing,
-    Study,
+    Axis, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit, Ramp, Refine,
+    Spacing, Study,
 };
-use crate::description::{Parameter, Presence, State};
+use crate::description::{Parameter, Parameters, Presence, State};
 use crate::of::default_model;
 use crate::orbit::{HistorySpan, Protocol};
 
@@ -44,6 +44,7 @@ impl Study {
         for branch in &self.branches {
             self.write_branch(&mut document, branch);
         }
+        self.ramps.iter().for_each(|ramp| self.write_ramp(&mut document, ramp));
         self.drawings
             .iter()
             .for_each(|drawing| write_drawing(&mut document, drawing, self.base.model()));
@@ -131,16 +132,9 @@ impl Study {
             varied.contains(&Coordinate::Parameter(*parameter))
                 || branch.varied().any(|other| other == *parameter)
         });
-        let at = given.map(|parameter| {
-            let value = quantity(branch.parameters[parameter], parameter.dimension());
-            (parameter.symbol().to_owned(), value)
-        });
-        document.put("at", inline(at));
-        let own = start(&branch.start, branch.start_phase, branch.section_phase);
-        let own = own.into_iter().map(|(key, coordinate, value)| {
-            (key.to_owned(), quantity(value, coordinate.dimension()))
-        });
-        document.put("start", inline(own.into_iter()));
+        document.put("at", values_of(given, &branch.parameters));
+        document
+            .put("start", inline_start(&branch.start, branch.start_phase, branch.section_phase));
         if let FirstOrbit::Newton { period } = branch.first {
             document.put("orbit", text("newton"));
             document.put("period", period);
@@ -155,6 +149,44 @@ impl Study {
         document.put("longest_step", number(branch.longest_step));
         document.put("most_points", branch.most_points);
     }
+
+    fn write_ramp(&self, document: &mut Document, ramp: &Ramp) {
+        document.element("ramps");
+        document.put("name", text(&ramp.name));
+        document.put("along", text(ramp.along.symbol()));
+        let [from, to] = ramp.ends.map(|end| quantity(end, ramp.along.dimension()));
+        document.put("from", from);
+        document.put("to", to);
+        let rate = plain_quantity(ramp.rate, ramp.along.dimension());
+        document.put("rate", text(&format!("{rate}/s")));
+        let varied = self.case_set.varied();
+        let given = self
+            .base
+            .model()
+            .parameters()
+            .filter(|it| *it != ramp.along && varied.contains(&Coordinate::Parameter(*it)));
+        document.put("at", values_of(given, &ramp.parameters));
+        document.put("start", inline_start(&ramp.start, ramp.start_phase, ramp.section_phase));
+        document.put("begins", text(ramp.begins.name()));
+        document.put("parts", ramp.parts);
+    }
+}
+
+/// The values of some parameters, in one line.
+fn values_of(given: impl Iterator<Item = Parameter>, of: &Parameters) -> String {
+    inline(given.map(|parameter| {
+        (parameter.symbol().to_owned(), quantity(of[parameter], parameter.dimension()))
+    }))
+}
+
+/// A start in one line.
+fn inline_start(state: &State, start_phase: f64, section_phase: f64) -> String {
+    let own = start(state, start_phase, section_phase).into_iter();
+    inline(
+        own.map(|(key, coordinate, value)| {
+            (key.to_owned(), quantity(value, coordinate.dimension()))
+        }),
+    )
 }
 
 /// The keys of a start with their values.

@@ -26,7 +26,7 @@ impl Study {
         remarks.into_iter().map(|it| it.text).collect()
     }
 
-    /// The branches along which orbits stay the same, at least in a part, each with the reason, in a sentence.
+    /// The branches and ramps along which orbits stay the same, at least in a part, each with the reason, in a sentence.
     pub fn branches_without_effect(&self) -> Vec<String> {
         let mut all = Vec::new();
         for branch in &self.branches {
@@ -36,6 +36,11 @@ impl Study {
             all.extend(reasons.map(|why| {
                 format!("branch `{}`: {why}; its orbits stay the same there", branch.name)
             }));
+        }
+        for ramp in &self.ramps {
+            let (name, along) = (&ramp.name, ramp.along.symbol());
+            let reason = self.reason(ramp.along);
+            all.extend(reason.map(|why| format!("ramp `{name}`: {along} has no effect {why}")));
         }
         all
     }

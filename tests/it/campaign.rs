@@ -277,10 +277,10 @@ fn branches_join_the_cases_in_the_file() {
     let study = parse(CASES_AND_BRANCH);
     let (_folder, output) = place();
     let campaign = Campaign::new(&study, &output);
-    let Ok(BranchesDone::Now { continued, .. }) = campaign.continue_branches(&silent) else {
+    let Ok(BranchesDone::Now { found, .. }) = campaign.continue_branches(&silent) else {
         panic!("the branch is continued")
     };
-    assert!(continued.len() == 1 && continued[0].is_ok());
+    assert!(found.continued.len() == 1 && found.continued[0].is_ok());
     campaign.run(Task::WHOLE, &silent).expect("the study runs");
     let dataset = store::read(&output).expect("a result");
     assert!(has_cases(&dataset) && has_branches(&dataset));

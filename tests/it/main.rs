@@ -70,6 +70,7 @@ mod panels;
 mod phases;
 mod poincare;
 mod program;
+mod ramps;
 mod random_numbers;
 mod random_studies;
 mod readers;

@@ -17,6 +17,8 @@ use capsulemap::study::{
 
 use super::random_numbers::Random;
 
+mod drawn_ramps;
+
 /// The coordinate in place of which one stands.
 fn replaced(coordinate: Coordinate) -> Option<Coordinate> {
     let Coordinate::Parameter(parameter) = coordinate else { return None };
@@ -195,6 +197,11 @@ impl Random {
             let branch = self.branch(&study, name);
             study.branches.push(branch);
         }
+        for number in 0..if has_branches { self.below(3) } else { 0 } {
+            let name = format!("{number}{}", self.text(&[]));
+            let ramp = self.ramp(&study, name);
+            study.ramps.push(ramp);
+        }
         for number in 0..self.below(3) {
             let name = format!("{number} \"ω'");
             let drawing = self.drawing(&study, name);
@@ -232,10 +239,24 @@ fn a_study_of_any_keys_is_read_back_as_it_was_written() {
         assert_eq!(shown(&validated), shown(&study));
         let text = study.to_toml();
         assert_eq!(validated.text, text);
-        for key in ["[draws]", "inherit =", "[[branches]]", "second =", "points =", "values ="]
-            .into_iter()
-            .chain(["\"logarithmic\"", "[history]", "outputs =", "at = {", "width =", "cycles = ["])
-        {
+        for key in [
+            "[draws]",
+            "inherit =",
+            "[[branches]]",
+            "[[ramps]]",
+            "second =",
+            "points =",
+            "values =",
+        ]
+        .into_iter()
+        .chain([
+            "\"logarithmic\"",
+            "[history]",
+            "outputs =",
+            "at = {",
+            "width =",
+            "cycles = [",
+        ]) {
             *seen.entry(key).or_default() += usize::from(text.contains(key));
         }
     }

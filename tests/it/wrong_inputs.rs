@@ -142,7 +142,7 @@ const COMMANDS: &[(&[&str], &[&str])] = &[
     (&["status", "none.toml"], &["none.toml: cannot be read: No such file"]),
     (&["join", "ok.toml"], &["results/ok/ok.blocks: no blocks of this study are there; compute them first"]),
     (&["verify", "ok.h5", "--cases", "0"], &["'0' for '--cases <CASES>': 0 is not in 1.."]),
-    (&["continue", "ok.toml"], &["ok.toml: asks for no [[branches]]; studies/README.md shows how"]),
+    (&["continue", "ok.toml"], &["ok.toml: asks for no [[branches]] and no [[ramps]]; studies/README.md shows how"]),
     (&["tradeoff", "ok.h5", "--of", "speed"], &["--of: unknown output \"speed\"; did you mean \"progression_speed\"? (allowed: progression_speed"]),
     (&["tradeoff", "ok.h5", "--direction", "up"], &["'up' for '--direction <DIRECTION>'", "possible values: forward, backward, either"]),
     (&["tradeoff", "ok.h5", "--where", "speed > 3"], &["\"speed > 3\": unknown output or parameter of a case \"speed\"; did you mean \"progression_speed\"? (allowed: "]),

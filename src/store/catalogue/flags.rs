@@ -17,6 +17,11 @@ pub fn outcomes() -> Flags {
     Outcome::ALL.iter().map(|&outcome| (outcome as i64, outcome.name().to_owned())).collect()
 }
 
+/// What a motion is with which a ramp begins: one that has settled, or that from the start.
+pub fn beginnings() -> Flags {
+    std::iter::once((-1, "start".to_owned())).chain(outcomes()).collect()
+}
+
 /// Why the integration of a case failed; 0 where it did not.
 pub fn reasons(model: &Description) -> Flags {
     let names = motion::reasons(model).into_iter();

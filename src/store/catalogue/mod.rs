@@ -9,6 +9,7 @@ mod entry;
 mod flags;
 mod model;
 mod places;
+mod ramps;
 mod tables;
 
 pub use crate::quantity::Shown;
@@ -18,4 +19,5 @@ pub use entry::{Entry, Extent, Flags, Type};
 pub use flags::{parameters, reasons, result, results};
 pub use model::{derived, edges, end, histories, impacts, neutral, section, starts};
 pub use places::{Place, all, is_dimension, named, taken_twice};
+pub use ramps::*;
 pub use tables::*;

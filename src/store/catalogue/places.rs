@@ -6,8 +6,9 @@ use std::sync::{Mutex, PoisonError};
 use super::branches::{BRANCH_CYCLE, BRANCH_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT};
 use super::entry::{Entry, Extent};
 use super::model::{derived, edges, end, histories, impacts, neutral, section};
+use super::ramps::{RAMP_INDEX, RAMP_POINT, ramp_outputs};
 use super::tables::{ATTRACTOR_CYCLE, ATTRACTOR_INDEX, EVENT};
-use super::{branches, cases, tables};
+use super::{branches, cases, ramps, tables};
 use crate::description::Description;
 use crate::study::Coordinate;
 
@@ -26,16 +27,22 @@ pub enum Place {
     Special,
     /// The points of the curves.
     Curve,
+    /// The points of the ramps.
+    Ramp,
+    /// Where the ramps begin.
+    RampFirst,
 }
 
 impl Place {
-    const ALL: [Place; 6] = [
+    const ALL: [Place; 8] = [
         Place::Attractor,
         Place::Event,
         Place::Request,
         Place::Branch,
         Place::Special,
         Place::Curve,
+        Place::Ramp,
+        Place::RampFirst,
     ];
 
     /// What the names of its columns begin with.
@@ -47,6 +54,8 @@ impl Place {
             Place::Branch => "branch_",
             Place::Special => "special_",
             Place::Curve => "curve_",
+            Place::Ramp => "ramp_",
+            Place::RampFirst => "ramp_first_",
         }
     }
 
@@ -76,6 +85,8 @@ impl Place {
             (Place::Event, _) => Extent::Table(EVENT.name),
             (Place::Request, _) => Extent::Table(REQUEST.name),
             (Place::Curve, _) => Extent::Table(CURVE_POINT.name),
+            (Place::Ramp, _) => Extent::Table(RAMP_POINT.name),
+            (Place::RampFirst, _) => Extent::Table(RAMP_INDEX.name),
             (Place::Branch, Extent::CaseRow(_)) => {
                 Extent::TableRow(BRANCH_POINT.name, BRANCH_CYCLE.name)
             }
@@ -97,6 +108,8 @@ impl Place {
             Place::Branch => "branch",
             Place::Special => "special point",
             Place::Curve => "curve",
+            Place::Ramp => "ramp",
+            Place::RampFirst => "where the ramp begins",
         };
         self.column(entry, lasting(format!("{place}: {}", entry.meaning)))
     }
@@ -107,12 +120,15 @@ impl Place {
         let parameters = self.parameters(model).filter(|_| self != Place::Attractor);
         let mut columns: Vec<Entry> = parameters.collect();
         let of_orbits = matches!(self, Place::Attractor | Place::Branch | Place::Special);
-        if of_orbits || self == Place::Event {
+        if of_orbits || matches!(self, Place::Event | Place::Ramp) {
             columns.extend(section(model).into_iter().map(|entry| self.of(entry)));
         }
         if of_orbits {
             let outputs = model.outputs().map(Entry::of_output);
             columns.extend(outputs.map(|entry| self.of(entry)));
+        }
+        if self == Place::Ramp {
+            columns.extend(ramp_outputs(model).map(|output| self.of(Entry::of_output(output))));
         }
         columns
     }
@@ -150,7 +166,7 @@ pub fn all(model: &'static Description) -> &'static [Entry] {
 fn with_repeated(model: &'static Description) -> Vec<Entry> {
     let study = Coordinate::all(model).map(Entry::of_coordinate);
     let outputs = model.outputs().map(Entry::of_output);
-    let fixed = [cases::FIXED, tables::FIXED, branches::FIXED].concat();
+    let fixed = [cases::FIXED, tables::FIXED, branches::FIXED, ramps::FIXED].concat();
     let described =
         [section, neutral, impacts, histories, derived, end, edges].map(|of| of(model)).concat();
     let columns = Place::ALL.into_iter().flat_map(|place| place.columns(model));
@@ -166,7 +182,8 @@ pub fn taken_twice(model: &'static Description) -> BTreeSet<&'static str> {
 
 /// Whether a dimension of files is called so that is no axis of a study, whatever its model.
 pub fn is_dimension(name: &str) -> bool {
-    let mut fixed = [cases::FIXED, tables::FIXED, branches::FIXED].into_iter().flatten();
+    let mut fixed =
+        [cases::FIXED, tables::FIXED, branches::FIXED, ramps::FIXED].into_iter().flatten();
     fixed.any(|entry| entry.name == name && entry.extent == Extent::Dimension)
 }
 
