@@ -22,6 +22,8 @@ pub(super) fn clear_away(
     drop(held);
     let path = block_path(output);
     if !BlockFolder::is_begun(&path) {
+        // A run was killed before it removed the empty folder, or a network disk kept files there that others had open.
+        let _ = std::fs::remove_dir(&path);
         return Ok(());
     }
     match BlockFolder::enter(&path, study, Company::Alone, false) {

@@ -107,6 +107,7 @@ impl InMemory {
             study,
             self.machine,
             &spread(study.blocks()),
+            None,
             |block, record| self.note(block, record, reports),
             |block, records| match store::block_image(study, &fingerprint, block, &records) {
                 Ok(image) => self.keep(block, image),

@@ -1,12 +1,13 @@
 //! Runs of a study to one file of results: computed block by block, resumed, shared among tasks and joined.
 //!
 //! A [`Campaign`] names a study, the file of its results and what to compute on. `run` computes the blocks that
-//! are missing and joins them, `join` joins those that tasks have computed, `continue_branches` adds the branches, and
+//! are missing and joins them, `run_with_claims` does so among others at the same time, `join` joins those that tasks have computed, `continue_branches` adds the branches, and
 //! `status` reads what is there. [`verify()`] and [`Replay`] compute cases again. Each reports
 //! [`Event`]s to a listener, stops when the listener asks for it, and prints nothing.
 
 pub mod answer;
 pub mod bounding;
+pub mod claims;
 mod clear;
 mod collect;
 mod compute;
@@ -39,6 +40,7 @@ pub mod result_file;
 pub mod robustness;
 mod search_time;
 pub mod share;
+mod sharing;
 mod sought;
 pub mod spread;
 mod start;
@@ -51,6 +53,7 @@ pub mod verify;
 
 pub use answer::{Answer, Named, Refined, Searched};
 pub use beside::Beside;
+pub use claims::{Abandoned, ClaimStatus, Claims};
 pub use error::{CampaignError, Cause};
 pub use in_memory::{InMemory, Moment, Snapshot, Wanted, results_in_memory};
 pub use kept::Kept;

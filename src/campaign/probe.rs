@@ -88,8 +88,8 @@ impl Parts<'_> {
     ) -> Result<(), RunError> {
         let order = spread(self.count());
         match &self.tiles {
-            None => run_blocks(self.study, machine, &order, done, finished),
-            Some(tiles) => run_tiles(self.study, machine, tiles, &order, done, finished),
+            None => run_blocks(self.study, machine, &order, None, done, finished),
+            Some(tiles) => run_tiles(self.study, machine, tiles, &order, None, done, finished),
         }
     }
 

@@ -5,10 +5,11 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use super::claims::{Abandoned, ClaimStatus};
 use super::error::CampaignError;
 use super::kept::Kept;
 use crate::run::Record;
-use crate::store::{Blocks, Summary, Unusable};
+use crate::store::{Blocks, Owner, Summary, Unusable};
 
 /// A listener: called with every event, from any thread; returns whether to continue.
 ///
@@ -60,6 +61,24 @@ pub enum Event<'a> {
     },
     /// A block is done and on the disk.
     Block(&'a Summary),
+    /// Another process has kept a block meanwhile.
+    KeptElsewhere(&'a Summary),
+    /// A block was computed that another process has kept meanwhile, with the same numbers to the bit; that one stays.
+    Twice {
+        /// Its number.
+        block: usize,
+    },
+    /// What another process had claimed is taken over from it.
+    TakenOver {
+        /// The block; none for the join.
+        block: Option<usize>,
+        /// Who had claimed it; none if that cannot be read.
+        owner: Option<&'a Owner>,
+        /// Why it is taken over.
+        why: Abandoned,
+    },
+    /// All that is left is claimed by others, which are waited for; sent again and again.
+    Awaiting(&'a [ClaimStatus]),
     /// All missing blocks of the task are done.
     Computed {
         /// Cases that were computed.

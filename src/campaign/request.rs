@@ -38,6 +38,8 @@ pub struct Complete {
 pub enum Done {
     /// All cases are in the file, whether it was there before or has been joined now.
     Complete(Complete),
+    /// All cases are in the file, and another process has joined them there meanwhile.
+    Elsewhere(Complete),
     /// The blocks of one of several tasks are in this folder.
     Shared(PathBuf),
 }

@@ -8,6 +8,7 @@ use crate::run::{Estimate, Forecast};
 use crate::store::{BlockFolder, Company, StoreError, Summary, Unusable, provenance};
 use crate::study::Study;
 
+use super::claims::ClaimStatus;
 use super::error::CampaignError;
 use super::kept::{Kept, kept};
 use super::request::Campaign;
@@ -40,6 +41,8 @@ pub struct BlockStatus {
     pub bytes: u64,
     /// How many each program and machine computed.
     pub makers: BTreeMap<String, usize>,
+    /// The claims on those that are not done, and on the join.
+    pub claims: Vec<ClaimStatus>,
     /// The files of others, and what is wrong with them.
     pub faults: Vec<(PathBuf, Unusable)>,
 }
@@ -87,10 +90,13 @@ impl BlockStatus {
                     *blocks.makers.entry(provenance::maker(&head.provenance)).or_default() += 1;
                     blocks.done.push(head.block);
                 }
-                Err(Unusable::Missing) => {}
+                Err(Unusable::Missing) => {
+                    blocks.claims.extend(ClaimStatus::read(&folder.claim(number), Some(number)));
+                }
                 Err(why) => blocks.faults.push((file, why)),
             }
         }
+        blocks.claims.extend(ClaimStatus::read(&folder.claim_on_join(), None));
         blocks
     }
 

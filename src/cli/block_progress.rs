@@ -98,6 +98,18 @@ impl BlockProgress {
         }
     }
 
+    /// Notes that another process has kept a block, which says nothing of the pace of this one.
+    pub fn kept_elsewhere(&self, block: &Summary) {
+        let mut state = self.state();
+        let done = state.forecast.done();
+        state.forecast.complete(block.number, block.cases, block.cycles);
+        let now = state.forecast.done();
+        let more = now.0 - done.0;
+        state.blocks += 1;
+        state.before = (state.before.0 + more, state.before.1 + (now.1 - done.1));
+        state.recent.iter_mut().for_each(|(_, cases)| *cases += more);
+    }
+
     /// How far the run is, in a line.
     fn line(&self, state: &State) -> String {
         let (done, cycles) = state.forecast.done();
@@ -112,7 +124,8 @@ impl BlockProgress {
             self.total[1] - state.before.0,
         );
         let left = state.forecast.seconds_left(pace).filter(|it| known && it.value.is_finite());
-        let cases_left = self.total[1] - done;
+        // Blocks that were damaged after they had been kept count twice.
+        let cases_left = self.total[1].saturating_sub(done);
         let left = match left {
             None => NOT_KNOWN.to_owned(),
             Some(left) if left.value < LAST && (1..=FEW).contains(&cases_left) => {

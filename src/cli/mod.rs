@@ -7,6 +7,7 @@ mod attractor_list;
 mod block_progress;
 mod branch_summary;
 mod check;
+mod claim_text;
 mod compare;
 mod compare_report;
 mod continuation;

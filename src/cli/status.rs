@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::arguments::study_arguments;
+use super::claim_text::claimed;
 use super::failure::Failure;
 use super::readable::{count, counted, estimated, rate, size, time};
 use super::summary::outcomes;
@@ -88,6 +89,7 @@ fn unfinished(study: &Study, blocks: &BlockStatus, arguments: &str) -> String {
     }
     text.push_str(&pace(study, blocks));
     text.push('\n');
+    claimed(&blocks.claims).iter().for_each(|line| text.push_str(&format!("{line}\n")));
     for (maker, blocks) in &blocks.makers {
         text.push_str(&format!("{} by {maker}\n", counted(*blocks, "block")));
     }

@@ -12,6 +12,17 @@ type Message = Box<dyn Fn() -> String + Send>;
 /// The message now; none as long as the system's own handling of the signal suffices.
 static MESSAGE: Mutex<Option<Message>> = Mutex::new(None);
 
+/// What is done before the message is printed.
+static BEFORE: Mutex<Option<Action>> = Mutex::new(None);
+
+/// Does something, from the thread that has heard the signal.
+type Action = Box<dyn Fn() + Send>;
+
+/// When a signal asks the program to stop and a message is known for that, `action` is done first; it must take no long time.
+pub fn before_end(action: impl Fn() + Send + 'static) {
+    *BEFORE.lock().unwrap_or_else(|it| it.into_inner()) = Some(Box::new(action));
+}
+
 /// From now on, when a signal asks the program to stop, prints `message` and ends as a program does that was
 /// stopped by the signal, so that shells and schedulers see the cause.
 ///
@@ -32,6 +43,7 @@ fn listen() -> Result<(), Failure> {
         .map_err(|error| Failure::machine(format!("signals cannot be handled: {error}")))?;
     thread::spawn(move || {
         if let Some(signal) = signals.forever().next() {
+            BEFORE.lock().unwrap_or_else(|it| it.into_inner()).iter().for_each(|action| action());
             let message = MESSAGE.lock().unwrap_or_else(|it| it.into_inner());
             // The line of the terminal may hold a bar, or ^C.
             notify_at_last(|| {

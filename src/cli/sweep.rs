@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use clap::Args;
 
@@ -10,9 +11,12 @@ use super::drawing::{FormatChoice, draw_from, formats, rehearse};
 use super::dry_run::estimate;
 use super::failure::Failure;
 use super::scheduler::{self, AskedTask};
+use super::stop::before_end;
 use super::terminal::notify;
 use super::watch::Watch;
-use crate::campaign::{Campaign, Complete, Done, Event, Task, output_path, read_study};
+use crate::campaign::{
+    Campaign, CampaignError, Claims, Complete, Done, Event, Task, output_path, read_study,
+};
 use crate::figure::Place;
 use crate::lane::Instructions;
 use crate::quantity::printable::printable;
@@ -28,11 +32,12 @@ Examples:
   capsulemap sweep STUDY.toml --output /data/NAME.h5 --threads 8
   capsulemap sweep STUDY.toml --task 3/8   # the third of 8 machines
   capsulemap join STUDY.toml               # once all 8 are done
+  capsulemap sweep STUDY.toml --claim      # on any number of machines that share the folder
 
 A run that was interrupted is resumed by the same command. Without --task, an element of an array of Slurm, Grid Engine, LSF or AWS \
 Batch takes its part by itself. PBS, Torque and indexed jobs of Kubernetes do not say how many elements there are: \
 --task $PBS_ARRAY_INDEX/8. The same goes for HyperQueue ($HQ_TASK_ID) and GNU parallel ($PARALLEL_SEQ). scripts/slurm, scripts/pbs and \
-scripts/kubernetes have array scripts.";
+scripts/kubernetes have array scripts. Processes with --claim share a study without numbers; docs/clusters.md shows how.";
 
 /// More values on an axis than this are alike to every figure.
 const MOST_VALUES: usize = 16;
@@ -54,6 +59,15 @@ pub struct Sweep {
     /// The number of the first part: 0 where a scheduler counts so.
     #[arg(long, value_name = "NUMBER", default_value_t = 1, requires = "task")]
     first_task: usize,
+    /// Compute blocks that no other process has claimed, one by one, among any number of processes with the same folder of results, which
+    /// may come and go; the last joins all. In an array of a scheduler its numbers are not looked at.
+    #[arg(long, conflicts_with_all = ["task", "overwrite"])]
+    claim: bool,
+    /// Others may take a block of this process whose claim was not renewed for so long; it is renewed twelve times as often. Longer
+    /// than what is written on one machine takes to be seen on another.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60, requires = "claim",
+        value_parser = clap::value_parser!(u32).range(1..=86_400))]
+    claim_limit: u32,
     /// Compute nothing but a few blocks as a probe, and estimate time and size.
     #[arg(long)]
     dry_run: bool,
@@ -96,25 +110,58 @@ impl Sweep {
         }
         let task = self.task()?;
         let watch = Watch::new(&self.study, &study);
-        let done = campaign.run(task, &|event| match event {
-            Event::Before { same_text } => {
-                let source = if same_text { "this study" } else { "a study with the same cases" };
-                let shown = printable(&output);
-                notify(&format!("{shown}: already computed, by this program from {source}"));
-                ControlFlow::Continue(())
-            }
-            Event::Accepted(_) => watch.heed(self.rehearse(&study, &place)),
-            other => watch.hear(other),
-        });
+        let done = self.compute(&campaign, task, &watch, &place);
         match watch.end(done)? {
             Done::Complete(Complete { archive, .. }) if !self.no_figures && task.of == 1 => {
                 draw_from(&archive, &study, &place)
             }
             Done::Complete(_) => Ok(()),
+            Done::Elsewhere(file) => {
+                let shown = printable(&file.path);
+                notify(&format!("{shown}: is whole; another process has joined it"));
+                Ok(())
+            }
             Done::Shared(blocks) => {
                 self.part_with(task, &blocks);
                 Ok(())
             }
+        }
+    }
+
+    /// Computes a part of the study, or what can be claimed.
+    fn compute(
+        &self,
+        campaign: &Campaign<'_>,
+        task: Task,
+        watch: &Watch<'_>,
+        place: &Place<'_>,
+    ) -> Result<Done, CampaignError> {
+        if !self.claim {
+            return campaign.run(task, &|event| self.hear(event, campaign, watch, place));
+        }
+        let claims = Claims::new(Duration::from_secs(self.claim_limit.into()));
+        let held = claims.clone();
+        before_end(move || held.release_all());
+        campaign.run_with_claims(&claims, &|event| self.hear(event, campaign, watch, place))
+    }
+
+    /// Shows an event; before anything is written, tries whether the figures can be drawn.
+    fn hear(
+        &self,
+        event: Event<'_>,
+        campaign: &Campaign<'_>,
+        watch: &Watch<'_>,
+        place: &Place<'_>,
+    ) -> ControlFlow<()> {
+        match event {
+            Event::Before { same_text } => {
+                let source = if same_text { "this study" } else { "a study with the same cases" };
+                let shown = printable(campaign.output);
+                notify(&format!("{shown}: already computed, by this program from {source}"));
+                ControlFlow::Continue(())
+            }
+            Event::Accepted(_) => watch.heed(self.rehearse(campaign.study, place)),
+            other => watch.hear(other),
         }
     }
 
@@ -129,6 +176,9 @@ impl Sweep {
 
     /// Which part of the study to compute.
     fn task(&self) -> Result<Task, Failure> {
+        if self.claim {
+            return Ok(Task::WHOLE);
+        }
         let task = match self.task {
             Some(AskedTask::Part { number, of }) => self.part(number, of)?,
             asked => {

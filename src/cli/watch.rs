@@ -5,13 +5,14 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use super::block_progress::BlockProgress;
+use super::claim_text::{claimed, taken_over};
 use super::failure::Failure;
 use super::progress::Progress;
 use super::readable::{blocks_kept, count, counted, time};
 use super::stop::say_when_stopped;
 use super::summary::summary;
 use super::terminal::{notify, print};
-use crate::campaign::{CampaignError, Event, Stage, Survey};
+use crate::campaign::{CampaignError, ClaimStatus, Event, Stage, Survey};
 use crate::quantity::printable::printable;
 use crate::store::Blocks;
 use crate::study::Study;
@@ -24,6 +25,8 @@ pub struct Watch<'a> {
     /// Progress of the blocks, once they are computed.
     blocks: OnceLock<Arc<BlockProgress>>,
     stages: Stages,
+    /// What was last said of claims that are waited for.
+    awaited: Mutex<String>,
     /// Why the campaign was stopped from here.
     failure: Mutex<Option<Failure>>,
 }
@@ -31,8 +34,9 @@ pub struct Watch<'a> {
 impl<'a> Watch<'a> {
     /// Begins to listen; `path` is the file of `study`.
     pub fn new(path: &'a Path, study: &'a Study) -> Self {
-        let failure = Mutex::default();
-        Watch { path, study, blocks: OnceLock::new(), stages: Stages::default(), failure }
+        let (blocks, stages) = (OnceLock::new(), Stages::default());
+        let (awaited, failure) = (Mutex::default(), Mutex::default());
+        Watch { path, study, blocks, stages, awaited, failure }
     }
 
     /// Shows an event.
@@ -70,6 +74,14 @@ impl<'a> Watch<'a> {
                 blocks.into_iter().for_each(|it| it.case(block, cases, record));
             }
             Event::Block(block) => blocks.into_iter().for_each(|it| it.block(block)),
+            Event::KeptElsewhere(block) => {
+                blocks.into_iter().for_each(|it| it.kept_elsewhere(block));
+            }
+            Event::Twice { block } => notify(&format!(
+                "block {block}: another process has computed it too, with the same numbers to the bit"
+            )),
+            Event::TakenOver { block, owner, why } => notify(&taken_over(block, owner, why)),
+            Event::Awaiting(claims) => self.wait(claims),
             Event::Again { file, why } => {
                 notify(&format!("{}: {why}; it is computed again", printable(file)));
             }
@@ -96,6 +108,16 @@ impl<'a> Watch<'a> {
             other => self.stages.show(other),
         }
         Ok(())
+    }
+
+    /// Says which claims are waited for, where that was not said last.
+    fn wait(&self, claims: &[ClaimStatus]) {
+        let lines = format!("waiting for {}", claimed(claims).join("; "));
+        let mut awaited = self.awaited.lock().unwrap_or_else(|it| it.into_inner());
+        if *awaited != lines {
+            notify(&lines);
+            *awaited = lines;
+        }
     }
 
     /// Says which blocks are there, and begins to show the progress of the others.

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 
-use super::cases::{Chains, Record, RunError, run_chains};
+use super::cases::{Chains, Choice, Record, RunError, run_chains};
 use super::refined::run_tiles;
 use crate::orbit::Machine;
 use crate::study::Study;
 
-/// Runs the `blocks` of a study, each named once, on `machine`. Tells `done` of each record with the number of its block, and
+/// Runs those `blocks` of a study, each named once, on `machine` that are `chosen`. Tells `done` of each record with the number of its block, and
 /// hands the records of a block, in the order of their indices, to `finished` when the last of them is done; from any thread,
 /// in any order, and until one of the two says to stop. Of a refined study a block is a tile, and has the records of the cases
 /// that had to be computed.
@@ -20,19 +20,23 @@ pub fn run_blocks(
     study: &Study,
     machine: Machine,
     blocks: &[usize],
+    chosen: Choice<'_>,
     done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
     if let Some(refinement) = study.refinement() {
-        return run_tiles(study, machine, &refinement, blocks, done, finished);
+        return run_tiles(study, machine, &refinement, blocks, chosen, done, finished);
     }
     let mut ends = Vec::with_capacity(blocks.len());
     for &block in blocks {
         ends.push(ends.last().unwrap_or(&0) + study.block(block).len());
     }
+    let answers: Vec<OnceLock<bool>> = blocks.iter().map(|_| OnceLock::new()).collect();
     let at = &|place: usize| {
         let at = ends.partition_point(|end| *end <= place);
-        (blocks[at], study.block(blocks[at]).end - (ends[at] - place))
+        // Threads that want other cases of the block wait for the answer.
+        let is_chosen = *answers[at].get_or_init(|| chosen.is_none_or(|choose| choose(blocks[at])));
+        is_chosen.then(|| (blocks[at], study.block(blocks[at]).end - (ends[at] - place)))
     };
     let unfinished: Mutex<BTreeMap<usize, Vec<Record>>> = Mutex::default();
     let count = ends.last().copied().unwrap_or(0);

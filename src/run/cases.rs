@@ -38,7 +38,7 @@ pub struct Record {
 /// Runs every case of `study` on `machine`, also of one that is to be refined, and hands each record to `keep`, which is called from any
 /// thread and in any order.
 pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Result<(), RunError> {
-    let chains = Chains { count: study.chains(), at: &|place| (0, place) };
+    let chains = Chains { count: study.chains(), at: &|place| Some((0, place)) };
     run_chains(study, machine, chains, |_, record| {
         keep(record);
         ControlFlow::Continue(())
@@ -54,7 +54,7 @@ pub fn run_sample(
     done: impl Fn() + Sync,
 ) -> Result<Vec<Record>, RunError> {
     let records = Mutex::new(Vec::new());
-    let chains = Chains { count: chains.len(), at: &|place| (0, chains[place]) };
+    let chains = Chains { count: chains.len(), at: &|place| Some((0, chains[place])) };
     run_chains(study, machine, chains, |_, record| {
         done();
         records.lock().expect("no thread has panicked").push(record);
@@ -65,13 +65,16 @@ pub fn run_sample(
     Ok(records)
 }
 
+/// Which of the blocks are run: none means all, otherwise each is asked for once, before its first case, by its number.
+pub type Choice<'a> = Option<&'a (dyn Fn(usize) -> bool + Sync)>;
+
 /// Some chains of a study, in the order in which they are begun.
 #[derive(Clone, Copy)]
 pub(super) struct Chains<'a> {
     /// How many.
     pub(super) count: usize,
-    /// The block of the chain at a place, and its own number.
-    pub(super) at: &'a (dyn Fn(usize) -> (usize, usize) + Sync),
+    /// The block of the chain at a place, and its own number; none if it is not to be run.
+    pub(super) at: &'a (dyn Fn(usize) -> Option<(usize, usize)> + Sync),
 }
 
 /// Runs some chains of `study` on `machine`, and hands each record to `keep` with the number of the block, until that says to
@@ -235,11 +238,15 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> CaseQueue for Worker<'_, K> {
 impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     /// The first case of the next chain.
     fn take(&self) -> Option<(Link, Case)> {
-        let place = self.taken.fetch_add(1, Ordering::Relaxed);
-        if place >= self.chains.count {
-            return None;
-        }
-        let (block, number) = (self.chains.at)(place);
+        let (block, number) = loop {
+            let place = self.taken.fetch_add(1, Ordering::Relaxed);
+            if place >= self.chains.count || self.stopped.load(Ordering::Relaxed) {
+                return None;
+            }
+            if let Some(chain) = (self.chains.at)(place) {
+                break chain;
+            }
+        };
         self.depart(block, self.study.chain(number), None)
     }
 

@@ -22,7 +22,7 @@ pub use crate::orbit::Machine;
 pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors, links};
 pub use attractor_table::{AttractorRow, AttractorTable, Settling, attractor_table};
 pub use block::run_blocks;
-pub use cases::{Record, RunError, on_all_threads, run, run_sample};
+pub use cases::{Choice, Record, RunError, on_all_threads, run, run_sample};
 pub use continuation::{Continued, NotContinued, continue_branches};
 pub use edge::{Edge, edges, has_edges};
 pub use final_motion::{FinalMotion, FinalMotions, final_motion, final_motions};

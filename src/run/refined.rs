@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use super::cases::{Chains, Rayon, Record, RunError, check, known_orbits, pool, run_on};
+use super::cases::{Chains, Choice, Rayon, Record, RunError, check, known_orbits, pool, run_on};
 use super::infer::{are_alike, label};
 use super::map_point::MapPoint;
 use super::{FinalMotion, FinalMotions, Machine, final_motion};
@@ -15,7 +15,10 @@ use crate::study::{Refine, Refinement, Refining, Study};
 /// Tiles that are refined together: enough that their cases fill the lanes, and all that is lost by a kill.
 pub const TILES_TOGETHER: usize = 16;
 
-/// Runs some `tiles` of a refined study, each named once, on `machine`; of its own `refinement` they are its blocks.
+/// Of tiles that are chosen one by one, others choose too: no more than this part of those left is taken at a time.
+const PART: usize = 4;
+
+/// Runs those `tiles` of a refined study, each named once, on `machine` that are `chosen`; of its own `refinement` they are its blocks.
 ///
 /// Tells `done` of each record with the number of its block, and hands the records that a tile has needed, those on the whole
 /// of its boundary among them, to `finished`; until one of the two says to stop. Which cases a tile needs depends on the study
@@ -25,12 +28,38 @@ pub fn run_tiles(
     machine: Machine,
     refinement: &Refinement,
     tiles: &[usize],
+    chosen: Choice<'_>,
     done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
     check(machine)?;
-    Runner::new(study, machine)?.run(refinement, tiles, done, finished);
+    let runner = Runner::new(study, machine)?;
+    let mut left = tiles;
+    while !left.is_empty() {
+        let together;
+        (together, left) = next_tiles(left, chosen);
+        if runner.run(refinement, &together, &done, &finished).is_break() {
+            break;
+        }
+    }
     Ok(())
+}
+
+/// The next of some tiles that are refined together, and those that are left.
+fn next_tiles<'a>(tiles: &'a [usize], chosen: Choice<'_>) -> (Vec<usize>, &'a [usize]) {
+    let Some(choose) = chosen else {
+        let (next, left) = tiles.split_at(tiles.len().min(TILES_TOGETHER));
+        return (next.to_vec(), left);
+    };
+    let most = tiles.len().div_ceil(PART).min(TILES_TOGETHER);
+    let (mut next, mut left) = (Vec::new(), tiles);
+    while next.len() < most
+        && let Some((&tile, others)) = left.split_first()
+    {
+        left = others;
+        next.extend(choose(tile).then_some(tile));
+    }
+    (next, left)
 }
 
 /// Computes what the tiles of a refined basin lack, as what crosses their boundaries shows, from the `final_motions` of the
@@ -151,13 +180,14 @@ impl<'a> Runner<'a> {
         Ok(Runner { study, machine, pool: pool(machine.threads)?, setting, known })
     }
 
+    /// Refines some tiles together.
     fn run(
         &self,
         refinement: &Refinement,
         numbers: &[usize],
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
         finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
-    ) {
+    ) -> ControlFlow<()> {
         match self.study.refine {
             Some(Refine::Attractors) => {
                 self.run_by::<ByAttractor>(refinement, numbers, done, finished)
@@ -165,7 +195,7 @@ impl<'a> Runner<'a> {
             Some(Refine::Outputs(_)) => {
                 self.run_by::<ByOutputs>(refinement, numbers, done, finished)
             }
-            None => {}
+            None => ControlFlow::Continue(()),
         }
     }
 
@@ -175,20 +205,15 @@ impl<'a> Runner<'a> {
         numbers: &[usize],
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
         finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
-    ) {
-        for numbers in numbers.chunks(TILES_TOGETHER) {
-            let mut tiles: Vec<Set<S>> =
-                numbers.iter().map(|number| Set::tile(refinement, *number)).collect();
-            if self.refine(&mut tiles, |place, record| done(numbers[place], record)).is_break() {
-                return;
-            }
-            for (&number, mut tile) in numbers.iter().zip(tiles) {
-                tile.records.sort_by_key(|record| record.index);
-                if finished(number, tile.records).is_break() {
-                    return;
-                }
-            }
+    ) -> ControlFlow<()> {
+        let mut tiles: Vec<Set<S>> =
+            numbers.iter().map(|number| Set::tile(refinement, *number)).collect();
+        self.refine(&mut tiles, |place, record| done(numbers[place], record))?;
+        for (&number, mut tile) in numbers.iter().zip(tiles) {
+            tile.records.sort_by_key(|record| record.index);
+            finished(number, tile.records)?;
         }
+        ControlFlow::Continue(())
     }
 
     fn complete_basin(&self, motions: &[(usize, FinalMotion)]) -> Vec<Record> {
@@ -261,7 +286,8 @@ impl<'a> Runner<'a> {
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     ) -> Vec<Record> {
         let records = Mutex::new(Vec::with_capacity(cases.len()));
-        let chains = Chains { count: cases.len(), at: &|place| (cases[place].1, cases[place].0) };
+        let chains =
+            Chains { count: cases.len(), at: &|place| Some((cases[place].1, cases[place].0)) };
         let known = self.known.as_ref();
         run_on(&self.pool, self.study, self.machine, chains, known, &|place, record| {
             let told = done(place, &record);

@@ -5,42 +5,25 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
+use std::io::{self, BufRead, BufReader, Read, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use flate2::Compression;
 use flate2::read::ZlibDecoder;
-use flate2::write::ZlibEncoder;
 use serde::{Deserialize, Serialize};
 
+use super::block_column::pack;
+pub use super::block_column::{Column, Numbers};
 use super::block_source::BlockSource;
 use super::checksum::{self, Checksum};
 use super::provenance;
+pub use super::unusable::Unusable;
 use super::{StoreError, file};
 
 /// The first line of every block file; the number is increased with every change of the layout.
 const FORMAT: &str = "capsulemap shard 2";
 /// No head is longer [bytes].
 const LONGEST_HEAD: u64 = 1 << 20;
-
-/// The numbers of a column.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Numbers {
-    /// Quantities; a missing one is NaN.
-    Real(Vec<f64>),
-    /// Counts and categories.
-    Integer(Vec<i64>),
-}
-
-/// The numbers of one variable at the cases of a block: the same count for each case, case by case.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Column {
-    /// Name of the variable.
-    pub name: String,
-    /// Its numbers.
-    pub numbers: Numbers,
-}
 
 /// The head of a block file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -91,30 +74,6 @@ pub struct BlockFile {
     begin: u64,
 }
 
-/// Why a block file cannot be used.
-#[derive(Debug)]
-pub enum Unusable {
-    /// It is not there.
-    Missing,
-    /// It is cut short, or has changed since it was written.
-    Torn,
-    /// Its checksum is valid, but it is of another study, version or block, as the text says.
-    Foreign(String),
-    /// The operating system refused.
-    Refused(io::Error),
-}
-
-impl std::fmt::Display for Unusable {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Unusable::Missing => write!(f, "it is not there"),
-            Unusable::Torn => write!(f, "it is torn: cut short, or changed since it was written"),
-            Unusable::Foreign(why) => write!(f, "it is foreign: {why}"),
-            Unusable::Refused(said) => write!(f, "it cannot be read: {said}"),
-        }
-    }
-}
-
 /// The file of block `number` in `folder`.
 pub fn path(folder: &Path, number: usize) -> PathBuf {
     folder.join(format!("block-{number:07}"))
@@ -126,17 +85,44 @@ pub fn is_block(name: &str) -> bool {
     number.is_some_and(|number| path(Path::new(""), number) == Path::new(name))
 }
 
-/// Writes the columns of a block to its file in `folder`, completely or not at all.
+/// How a block came to its file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Written {
+    /// It was written now.
+    Now,
+    /// Another process has written it meanwhile, with the same numbers to the bit, and that one stays.
+    Before,
+}
+
+/// Writes the columns of a block to its file in `folder`, completely or not at all; a usable block that is there stays.
+///
+/// Fails if the system refuses, if the block that is there has other numbers, or if it has been removed meanwhile, as all are when
+/// they are joined.
 pub fn write(
     folder: &Path,
     fingerprint: &str,
     block: Summary,
     columns: &[Column],
-) -> Result<(), StoreError> {
-    let path = path(folder, block.number);
+) -> Result<Written, StoreError> {
+    let number = block.number;
+    let path = path(folder, number);
     let image = image(fingerprint, block, columns);
     let image = image.map_err(StoreError::system(&path, "packing"))?;
-    file::put(&path, &image)
+    if file::put_new(&path, &image)? {
+        return Ok(Written::Now);
+    }
+    match open(folder, fingerprint, number) {
+        Ok(there) => {
+            let own = of_image(image.into());
+            match own.is_ok_and(|own| there.has_the_numbers_of(&own)) {
+                true => Ok(Written::Before),
+                false => Err(StoreError::Contradicted { path }),
+            }
+        }
+        Err(Unusable::Missing) => Err(StoreError::NoBlocks { folder: folder.to_owned() }),
+        // It is damaged or foreign.
+        Err(_) => file::put(&path, &image).map(|()| Written::Now),
+    }
 }
 
 /// The bytes of a block file.
@@ -304,6 +290,20 @@ impl BlockFile {
         }
     }
 
+    /// Whether another block has the same numbers, to the bit; not if one of the two cannot be read.
+    fn has_the_numbers_of(&self, other: &BlockFile) -> bool {
+        let both = self.packed().and_then(|own| Ok(own == other.packed()?));
+        self.head.columns == other.head.columns && both.unwrap_or(false)
+    }
+
+    /// The bytes of all columns.
+    fn packed(&self) -> io::Result<Vec<u8>> {
+        let count = self.head.columns.iter().map(|column| column.bytes).sum();
+        let mut bytes = Vec::new();
+        self.source.from(self.begin)?.take(count).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+
     fn damaged(&self) -> StoreError {
         StoreError::Damaged { path: self.source.path().to_owned() }
     }
@@ -313,29 +313,6 @@ impl BlockFile {
         let column = self.head.columns.iter().find(|column| column.name == name)?;
         column.range.filter(|[low, high]| low <= high)
     }
-}
-
-impl Numbers {
-    /// The least and the greatest of integers, the other way round if there are none; none for reals.
-    fn range(&self) -> Option<[i64; 2]> {
-        let Numbers::Integer(all) = self else { return None };
-        let none = [i64::MAX, i64::MIN];
-        Some(all.iter().fold(none, |[low, high], it| [low.min(*it), high.max(*it)]))
-    }
-}
-
-fn pack(numbers: &Numbers) -> io::Result<Vec<u8>> {
-    // The encoder clears its room for output at every call, so that it is given many numbers at a time.
-    let mut encoder = BufWriter::new(ZlibEncoder::new(Vec::new(), Compression::fast()));
-    match numbers {
-        Numbers::Real(reals) => {
-            reals.iter().try_for_each(|it| encoder.write_all(&it.to_bits().to_le_bytes()))?;
-        }
-        Numbers::Integer(integers) => {
-            integers.iter().try_for_each(|it| encoder.write_all(&it.to_le_bytes()))?;
-        }
-    }
-    encoder.into_inner()?.finish()
 }
 
 #[cfg(test)]

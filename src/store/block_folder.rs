@@ -14,7 +14,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::block_content::{columns, summary};
-use super::block_file::{self, BlockFile, Head, Summary, Unusable};
+use super::block_file::{self, BlockFile, Head, Summary, Unusable, Written};
 use super::file::{self, discard_unfinished_in, put};
 use super::lock::{Lock, Tried, try_lock};
 use super::{StoreError, provenance};
@@ -28,6 +28,8 @@ const BEGUN: &str = "begun.json";
 const STUDY: &str = "begun.toml";
 /// Held by every run in the folder.
 const LOCK: &str = "lock";
+/// What the names of claims begin with.
+const CLAIM: &str = "claim-";
 /// How often a lock is tried that another process holds, perhaps only to test whether it is held.
 const TRIES: u32 = 10;
 /// Time between two tries.
@@ -103,6 +105,7 @@ impl BlockFolder {
         }
         if company == Company::Alone {
             discard_unfinished_in(path, |of, _| is_own(of))
+                .and_then(|()| discard_claims(path))
                 .map_err(StoreError::system(path, "clearing away unfinished blocks"))?;
         }
         Ok(folder)
@@ -189,17 +192,27 @@ impl BlockFolder {
         block_file::read_head_of(&self.path, &self.fingerprint, block)
     }
 
-    /// Writes the records of block `number`, completely or not at all; returns their summary.
+    /// The file of the claim on a block.
+    pub fn claim(&self, block: usize) -> PathBuf {
+        self.path.join(format!("{CLAIM}{block:07}"))
+    }
+
+    /// The file of the claim on the join of all blocks.
+    pub fn claim_on_join(&self) -> PathBuf {
+        self.path.join(format!("{CLAIM}join"))
+    }
+
+    /// Writes the records of block `number`, completely or not at all; a usable block that is there stays. Returns their summary.
     pub fn keep(
         &self,
         study: &Study,
         number: usize,
         records: &[Record],
-    ) -> Result<Summary, StoreError> {
+    ) -> Result<(Summary, Written), StoreError> {
         let summary = summary(study, number, records);
         let columns = columns(study, records);
-        block_file::write(&self.path, &self.fingerprint, summary.clone(), &columns)?;
-        Ok(summary)
+        let written = block_file::write(&self.path, &self.fingerprint, summary.clone(), &columns)?;
+        Ok((summary, written))
     }
 
     /// Copies a block from another folder, completely or not at all.
@@ -236,6 +249,17 @@ impl BlockFolder {
     }
 }
 
+/// Removes the claims of processes that were killed; to be called by who is alone in the folder.
+fn discard_claims(path: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(path)? {
+        let entry = entry?;
+        if is_claim(&entry.file_name().to_string_lossy()) {
+            remove_if_there(&entry.path())?;
+        }
+    }
+    Ok(())
+}
+
 /// Whether anything is in a folder that is not of this program.
 fn holds_others(path: &Path) -> io::Result<bool> {
     let entries = match fs::read_dir(path) {
@@ -255,7 +279,13 @@ fn is_own(name: &str) -> bool {
 }
 
 fn is_finished(name: &str) -> bool {
-    [BEGUN, STUDY, LOCK].contains(&name) || block_file::is_block(name)
+    [BEGUN, STUDY, LOCK].contains(&name) || block_file::is_block(name) || is_claim(name)
+}
+
+/// Whether a file of this name is a claim on a block or on the join.
+fn is_claim(name: &str) -> bool {
+    let of = name.strip_prefix(CLAIM);
+    of.is_some_and(|of| of == "join" || block_file::is_block(&format!("block-{of}")))
 }
 
 fn remove_joined(path: &Path) -> Result<(), StoreError> {

@@ -98,6 +98,11 @@ pub enum StoreError {
         /// The folder.
         folder: PathBuf,
     },
+    /// Another process has computed other numbers of the same block.
+    Contradicted {
+        /// The file of the block, which stays.
+        path: PathBuf,
+    },
     /// What was written does not read back as it was; the new file was discarded.
     Unequal {
         /// The file that was to be written.
@@ -161,6 +166,7 @@ impl StoreError {
             | StoreError::ChangedSince { path }
             | StoreError::NoPlace { path, .. }
             | StoreError::InUse { path }
+            | StoreError::Contradicted { path }
             | StoreError::Unequal { path, .. } => path,
             StoreError::Changed { folder, .. }
             | StoreError::Occupied { folder }
@@ -199,6 +205,9 @@ impl StoreError {
             StoreError::Held { .. } => {
                 f.write_str("another run has been writing results there for ten minutes")
             }
+            StoreError::Contradicted { .. } => f.write_str(
+                "another process has computed other numbers of this block than this one, which must not be",
+            ),
             StoreError::Unequal { difference, .. } => {
                 write!(f, "what was written does not read back the same: {difference}")
             }
@@ -230,6 +239,9 @@ impl StoreError {
                 "wait for it, or stop it and run again (what it has finished is kept)"
             }
             StoreError::Held { .. } => "run again when it is done (what is finished is kept)",
+            StoreError::Contradicted { .. } => {
+                "one of the machines computes wrongly: run `capsulemap verify` with a file of results on each"
+            }
             StoreError::Unequal { .. } => {
                 "the new file was discarded and an older one kept: check the disk and run again"
             }

@@ -70,6 +70,24 @@ pub fn put(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     name(filled(file, path, bytes)?, path)
 }
 
+/// Keeps bytes in a new file at `path`; false, and nothing is changed, if a file is there.
+///
+/// Fails as [put] does.
+pub(super) fn put_new(path: &Path, bytes: &[u8]) -> Result<bool, StoreError> {
+    let path = &place(path)?;
+    let file = begun(path)?;
+    let _ = try_lock(file.as_file(), Lock::Exclusive);
+    match filled(file, path, bytes)?.persist_noclobber(path) {
+        Ok(_) => {}
+        Err(refused) if refused.error.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
+        // The disk knows no name that is given only where none is.
+        Err(refused) => return name(refused.file, path).map(|()| true),
+    }
+    sync_folder(folder(path))
+        .map_err(StoreError::system(path, "forcing the folder to the disk"))?;
+    Ok(true)
+}
+
 /// A new file beside `path` that has not got its name yet.
 fn begun(path: &Path) -> Result<NamedTempFile, StoreError> {
     temporary(path, folder(path)).map_err(StoreError::system(path, "starting a new file"))

@@ -3,6 +3,7 @@
 mod attribute;
 mod attractors;
 pub mod block_folder;
+mod block_column;
 mod block_content;
 mod block_source;
 mod boundary;
@@ -33,6 +34,7 @@ mod plain;
 mod slab;
 mod superblock;
 mod trial;
+mod unusable;
 pub mod provenance;
 mod scale;
 pub mod schema;
@@ -40,6 +42,7 @@ mod size;
 mod candidates;
 mod case_table;
 mod checksum;
+mod claim;
 mod columns;
 mod watched;
 mod words;
@@ -52,11 +55,12 @@ pub use attribute::{
     has_missing, is_of_format,
 };
 pub use block_content::{block_image, packed_bytes};
-pub use block_file::{Summary, Unusable};
+pub use block_file::{Summary, Unusable, Written};
 pub use block_folder::{BlockFolder, Company, by_outcome};
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
 pub use candidates::{Candidates, candidates, takes_part};
 pub use case_table::{CaseTable, Column};
+pub use claim::{Claim, HeldClaim, Owner};
 pub use constraint::{Comparison, Condition, conditions, fulfils, quantity};
 pub use dataset::{Dataset, Values, Variable};
 pub use decode::Archive;

@@ -41,6 +41,7 @@ fn blocks(study: &Study, numbers: &[usize], machine: Machine) -> BTreeMap<usize,
         study,
         machine,
         numbers,
+        None,
         |_, _| ControlFlow::Continue(()),
         |block, records| {
             let before = found.lock().expect("a lock").insert(block, records);
@@ -97,6 +98,7 @@ fn a_run_stops_when_it_is_asked_to() {
         study,
         machine,
         &numbers,
+        None,
         |_, _| ControlFlow::Continue(()),
         |_, _| {
             *count.lock().expect("a lock") += 1;

@@ -13,8 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 use super::program::{Ran, WorkDir};
-pub use long_run::{LINES, LONG_STUDY, LongRun};
-use long_run::{drawn, said};
+pub use long_run::{LINES, LONG_STUDY, LongRun, drawn, said};
 
 /// How often runs were killed while cases were computed, and while blocks were joined.
 type Kills = [u32; 2];

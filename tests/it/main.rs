@@ -10,6 +10,7 @@ mod campaign;
 mod capsule_over_folds;
 mod catalogue;
 mod chaotic_basins;
+mod claims;
 mod circles;
 mod cli;
 mod comparisons;
