@@ -97,7 +97,9 @@ impl Sharing<'_> {
 
     /// Finds and reports which blocks others have kept meanwhile.
     fn look(&self) -> Result<(), CampaignError> {
-        for block in locked(&self.left).clone() {
+        // What is left changes below, so that it must not be locked meanwhile.
+        let left = locked(&self.left).clone();
+        for block in left {
             if self.is_kept(block) {
                 self.note_kept(block)?;
             }
