@@ -6,6 +6,7 @@
 //! [`Event`]s to a listener, stops when the listener asks for it, and prints nothing.
 
 pub mod answer;
+pub mod basin_shares;
 pub mod bounding;
 mod clear;
 mod collect;
@@ -49,6 +50,7 @@ mod until_stopped;
 pub mod verify;
 
 pub use answer::{Answer, Named, Refined, Searched};
+pub use basin_shares::{WeightedShares, settling_times, weighted_shares};
 pub use error::{CampaignError, Cause};
 pub use in_memory::{InMemory, Moment, Snapshot, Wanted, results_in_memory};
 pub use kept::Kept;

@@ -4,6 +4,8 @@ mod appearance;
 mod arguments;
 mod asked_case;
 mod attractor_list;
+mod basin_list;
+mod asked_density;
 mod block_progress;
 mod branch_summary;
 mod check;

@@ -19,6 +19,7 @@ pub mod include;
 pub(crate) mod layout;
 mod named_model;
 pub mod named_system;
+mod normal;
 mod parameter_table;
 mod refine_file;
 pub mod refinement;
@@ -42,4 +43,5 @@ pub use drawing::{
 };
 pub use draws::{DrawKind, Draws, Range};
 pub use grid::{Direction, Grid, Inherit};
+pub use normal::Normal;
 pub use refinement::{Refine, Refinement, Refining};
