@@ -44,6 +44,7 @@ pub mod spread;
 mod start;
 pub mod status;
 pub mod study_source;
+pub mod tipping;
 pub mod tolerance_draws;
 pub mod trade_off;
 mod until_stopped;
@@ -74,5 +75,6 @@ pub use status::{BlockStatus, Pace, Status};
 pub use study_source::{
     check_names, is_system_alone, read_study, read_study_or_results, read_system, study_of,
 };
+pub use tipping::BasinsAlong;
 pub use trade_off::{Between, TradeOff};
 pub use verify::{Difference, Differs, Sample, Verified, verify};

@@ -16,6 +16,7 @@ mod room;
 mod settling;
 mod shock;
 pub mod shares_along;
+mod tipping;
 
 pub use crate::orbit::Machine;
 pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors, links};
@@ -31,3 +32,4 @@ pub use map_point::{InferredCases, MapPoint, infer_cases, within};
 pub use refined::{TILES_TOGETHER, complete_basin, complete_map, run_tiles};
 pub use settling::{QUANTILES, SettledWithin, Settling, SettlingTimes};
 pub use shares_along::{SharesAt, shares_along};
+pub use tipping::{Step, Steps, Tipping, TippingRow, tipping};

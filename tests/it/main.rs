@@ -98,6 +98,7 @@ mod smoothed_records;
 mod store;
 mod study;
 mod text_recordings;
+mod tipping;
 mod texts;
 mod tolerances;
 mod trade_offs;
