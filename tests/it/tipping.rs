@@ -116,7 +116,7 @@ fn led(told: &Value, at: usize, attractor: u64, to: u64) -> &Value {
     all.iter().find(|it| it["to"] == to).unwrap_or_else(|| panic!("none leads to {to}: {row}"))
 }
 
-/// With `TIPPING_SEEDS=200` the intervals of so many sets of draws, against a direct simulation of thousands of steps.
+/// With `TIPPING_SEEDS=1000` the intervals of so many sets of draws, against a direct simulation of thousands of steps.
 #[test]
 fn draws_lead_where_direct_simulation_does() {
     let folder = wells();
