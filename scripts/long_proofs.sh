@@ -28,6 +28,9 @@ CAPSULES=3000 cargo test --release --test it -- successions --nocapture
 echo "== periods and defects of 10 000 cases of each law over the whole box, and a second integrator on 3000"
 CASES=10000 cargo test --release --test it -- wide_box --nocapture
 
+echo "== basins of a flow are Wada to a few starts on 600 starts a side; intervals of where motions go when a parameter steps, in 1000 sets of draws"
+WADA_SIDE=600 TIPPING_SEEDS=1000 cargo test --release --test it -p capsulemap -- wada tipping --nocapture
+
 echo "== invariants of 4096 motions over the whole box"
 PROPTEST_CASES=4096 cargo test --release --test it -- invariants --nocapture
 

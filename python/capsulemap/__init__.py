@@ -4,7 +4,8 @@ Numbers are in SI units; texts have units of their own ("2.42 kN/m"). Results ar
 coordinates and attributes of the program's HDF5 files, where ``attrs["units"]`` is the unit of each variable.
 """
 
-from ._axis import Axis, Draws
+from ._axis import Axis, Draws, Normal
+from ._basins import basin_measures, tipping
 from ._capsulemap import __version__, set_threads
 from ._errors import Fault, MachineError, PartialResultWarning, StudyError, StudyWarning
 from ._experiment import Comparison, Fit, Identified, compare, fit, identify
@@ -31,6 +32,7 @@ __all__ = [
     "Identified",
     "Job",
     "MachineError",
+    "Normal",
     "Orbit",
     "Oscillator",
     "Page",
@@ -43,6 +45,7 @@ __all__ = [
     "__version__",
     "attractors",
     "basin",
+    "basin_measures",
     "branch",
     "compare",
     "explore",
@@ -57,6 +60,7 @@ __all__ = [
     "set_threads",
     "simulate",
     "sweep",
+    "tipping",
     "tradeoff",
     "tree",
 ]

@@ -34,6 +34,24 @@ class Axis:
 
 
 @dataclass(frozen=True)
+class Normal:
+    """The range of a draw that has a normal distribution, cut at ``start`` and ``stop``.
+
+    Without them it is cut six deviations from the mean, or where the quantity has its bounds. Quantities are numbers in SI units or texts
+    with units.
+    """
+
+    mean: Quantity
+    deviation: Quantity
+    start: Quantity | None = None
+    stop: Quantity | None = None
+
+    def _pairs(self, key: str, unit: str | None) -> dict[str, str]:
+        pairs = {"mean": self.mean, "deviation": self.deviation, "from": self.start, "to": self.stop}
+        return {name: _text.quantity(key, it, unit) for name, it in pairs.items() if it is not None}
+
+
+@dataclass(frozen=True)
 class Draws:
     """Cases that are drawn from the ranges of the axes, in place of a grid.
 
@@ -59,6 +77,10 @@ def tables(axes: Mapping[str, object], units: Mapping[str, str | None], drawn: b
         if isinstance(axis, Axis):
             if axis.points is None and not drawn:
                 raise _text.unfit(f"axes[{name!r}]", "an Axis without points is a range for draws; how many points has it?")
+            pairs = axis._pairs(f"axes.{name}", unit)
+        elif isinstance(axis, Normal):
+            if not drawn:
+                raise _text.unfit(f"axes[{name!r}]", "a Normal is the range of a draw; it needs draws=")
             pairs = axis._pairs(f"axes.{name}", unit)
         else:
             pairs = {"values": _text.quantities(f"axes.{name}", _values(axis), unit)}

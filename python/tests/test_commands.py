@@ -37,6 +37,41 @@ def told_by_command_line(*words: str) -> dict[str, Any]:
     return told
 
 
+class Basins(unittest.TestCase):
+    def test_measures_of_basins_are_those_of_the_command_line(self) -> None:
+        starts = {"start_r": Axis("-6 mm", "6 mm", 16), "start_y1": Axis(-1.5, 1.5, 16)}
+        basin = capsulemap.basin(TWO_MOTIONS.replace(omega=155), starts)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "basin.h5")
+            capsulemap.save(basin, path)
+            told = told_by_command_line(
+                "inspect", str(path), "--settled-within=5,50", "--density=start_r=0,2 mm", "--density=start_y1=0.1,0.5"
+            )
+        density = {"start_r": (0, "2 mm"), "start_y1": (0.1, 0.5)}
+        found = capsulemap.basin_measures(basin, settled_within=[5, 50], density=density)
+        self.assertEqual(found, {name: told[name] for name in ("wada", "settling", "weighted")})
+        self.assertFalse(found["wada"]["applicable"])
+        self.assertEqual(basin.attractor_cycles_median.values.tolist(), [it["quantiles"][0] for it in found["settling"]["attractors"]])
+        with self.assertRaisesRegex(StudyError, "start_q"):
+            capsulemap.basin_measures(basin, density={"start_q": (0, 1)})
+
+    def test_draws_may_have_a_normal_distribution(self) -> None:
+        starts = {"start_y1": capsulemap.Normal("0.4 m/s", 0.5, stop="0.5 m/s")}
+        with self.assertWarnsRegex(capsulemap.StudyWarning, "normal distribution of mean 0.4 m/s"):
+            drawn = capsulemap.basin(TWO_MOTIONS.replace(omega=155), starts, draws=40)
+        self.assertLessEqual(float(drawn.start_y1.max()), 0.5)
+        self.assertIn("normal distribution of mean 0.4 m/s", drawn.attrs["study_remarks"])
+
+    def test_where_motions_go_is_what_the_command_line_says(self) -> None:
+        axes = {"omega": [157, 160, 165], "start_y1": Axis(-1.5, 1.5, 9)}
+        along = capsulemap.sweep(TWO_MOTIONS, axes)
+        found = capsulemap.tipping(along, step=("160 rad/s", 165), draws=20, ball=0.01)
+        self.assertEqual([found["steps"][0][end] for end in ("from", "to")], [160.0, 165.0])
+        for row in found["steps"][0]["attractors"]:
+            # One motion is left, and all others fold.
+            self.assertEqual(sum(it["count"] for it in row["orbit"]) + row["unknown"], 20)
+
+
 class TradeOffs(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:

@@ -6,6 +6,7 @@
 //! [`Event`]s to a listener, stops when the listener asks for it, and prints nothing.
 
 pub mod answer;
+pub mod basin_shares;
 pub mod bounding;
 pub mod claims;
 mod clear;
@@ -46,12 +47,14 @@ pub mod spread;
 mod start;
 pub mod status;
 pub mod study_source;
+pub mod tipping;
 pub mod tolerance_draws;
 pub mod trade_off;
 mod until_stopped;
 pub mod verify;
 
 pub use answer::{Answer, Named, Refined, Searched};
+pub use basin_shares::{WeightedShares, settling_times, weighted_shares};
 pub use beside::Beside;
 pub use claims::{Abandoned, ClaimStatus, Claims};
 pub use error::{CampaignError, Cause};
@@ -77,5 +80,6 @@ pub use status::{BlockStatus, Pace, Status};
 pub use study_source::{
     check_names, is_system_alone, read_study, read_study_or_results, read_system, study_of,
 };
+pub use tipping::BasinsAlong;
 pub use trade_off::{Between, TradeOff};
 pub use verify::{Difference, Differs, Sample, Verified, verify};

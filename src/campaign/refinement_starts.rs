@@ -45,11 +45,8 @@ impl Refinement<'_> {
         threads: Option<usize>,
         done: impl Fn() + Sync,
     ) -> Result<Vec<DrawnMotion>, CampaignError> {
-        let ranges = self.free().into_iter().map(|(parameter, [from, to])| Range {
-            coordinate: Coordinate::Parameter(parameter),
-            from,
-            to,
-            spacing: Spacing::Linear,
+        let ranges = self.free().into_iter().map(|(parameter, ends)| {
+            Range::even(Coordinate::Parameter(parameter), ends, Spacing::Linear)
         });
         let (kind, ranges) = (DrawKind::LowDiscrepancy, ranges.collect());
         let points = Draws { kind, count, seed: self.seed, ranges };

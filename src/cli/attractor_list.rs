@@ -150,8 +150,13 @@ fn number(value: &Value) -> String {
     value.as_f64().map_or("-".to_owned(), |it| format!("{it:.6}"))
 }
 
+/// A whole number that the file has once; none where it has not.
+pub fn whole(dataset: &Dataset, name: &str) -> Option<u64> {
+    numbers(dataset, name).first().map(|it| *it as u64)
+}
+
 /// The numbers of a variable as they are stored; none where there is none.
-fn numbers(dataset: &Dataset, name: &str) -> Vec<f64> {
+pub fn numbers(dataset: &Dataset, name: &str) -> Vec<f64> {
     let variable = dataset.variable(name);
     variable.map_or(Vec::new(), |it| it.values.to_real().into_iter().collect())
 }

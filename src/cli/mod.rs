@@ -4,6 +4,8 @@ mod appearance;
 mod arguments;
 mod asked_case;
 mod attractor_list;
+mod basin_list;
+mod asked_density;
 mod block_progress;
 mod branch_summary;
 mod check;
@@ -46,6 +48,7 @@ mod sweep;
 mod target;
 mod terminal;
 mod text_compare;
+mod tipping;
 mod tradeoff;
 mod varied;
 mod verify;
@@ -112,6 +115,8 @@ enum Command {
     Figure(Box<figure::Figure>),
     /// Find the fastest motions for the least energy in a file of results, or the most of one output for the least of another.
     Tradeoff(tradeoff::Tradeoff),
+    /// Find the attractors that orbits left behind by a step of the parameter lead to.
+    Tipping(tipping::TippingOptions),
     /// Write what a file of results says as one page for a browser.
     Report(report::Report),
     /// Look at a file of results in the browser: click a cell of a map, see its motion.
@@ -160,6 +165,7 @@ pub fn run(commit: &'static str, words: impl IntoIterator<Item = OsString>) -> u
         Command::Continue(continuation) => continuation.run(),
         Command::Figure(figure) => figure.run(),
         Command::Tradeoff(tradeoff) => tradeoff.run(),
+        Command::Tipping(tipping) => tipping.run(),
         Command::Report(report) => report.run(),
         Command::Explore(explore) => explore.run(),
         Command::Inspect(inspect) => inspect.run(),

@@ -4,11 +4,12 @@ use super::cases::run_sample;
 use super::edge::{Edge, edges};
 use super::inferred_sample::{InferredSample, check_starts};
 use super::room::Room;
+use super::settling::{Settling, SettlingTimes};
 use super::shock::shocks;
 use super::{Attractors, FinalMotions, Machine, Record, RunError, SharesAt, shares_along};
 use crate::attractor::{
-    Attractor, Entropy, Integrity, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid,
-    uncertainty,
+    Attractor, Entropy, Integrity, Share, Uncertainty, Wada, entropy, shares_of_draws,
+    shares_of_grid, uncertainty, wada,
 };
 use crate::description::Section;
 use crate::model::Setting;
@@ -32,16 +33,6 @@ pub struct AttractorRow {
     pub settling: Option<Settling>,
 }
 
-/// For how many cycles the starts of an attractor are followed until it is decided, measuring included where they are
-/// followed to the end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settling {
-    /// Their mean.
-    pub mean: f64,
-    /// The most.
-    pub most: u64,
-}
-
 /// What a study tells of attractors and their basins whose cases differ in their starts alone, or in one parameter, too.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct AttractorTable {
@@ -53,6 +44,10 @@ pub struct AttractorTable {
     pub entropy: Option<Entropy>,
     /// The uncertainty exponent of the same, where the grid is fine enough.
     pub uncertainty: Option<Uncertainty>,
+    /// How far the boundaries of the basins of the same are from each other, where there are three or more.
+    pub wada: Option<Wada>,
+    /// After how many cycles the starts have settled, where that has been told.
+    pub settling: Option<SettlingTimes>,
     /// The saddles between the basins of a grid.
     pub edges: Vec<Edge>,
     /// How well the starts of a refined grid are inferred that have not been computed.
@@ -66,18 +61,12 @@ impl AttractorTable {
         attractors: &Attractors,
         cycles: impl Iterator<Item = (usize, u64)>,
     ) {
-        let mut counts = vec![(0_u64, 0_u64, 0_u64); self.rows.len()];
-        for (case, cycles) in cycles {
-            if let Some(number) = attractors.of_case[case]
-                && let Some((cases, all, most)) = counts.get_mut(number as usize)
-            {
-                (*cases, *all, *most) = (*cases + 1, *all + cycles, (*most).max(cycles));
-            }
+        let starts = cycles.map(|(case, cycles)| (attractors.of_case[case], cycles));
+        let times = SettlingTimes::of(self.rows.len(), starts);
+        for (number, row) in self.rows.iter_mut().enumerate() {
+            row.settling = times.settling(number);
         }
-        for (row, (cases, all, most)) in self.rows.iter_mut().zip(counts) {
-            let mean = all as f64 / cases as f64;
-            row.settling = (cases > 0).then_some(Settling { mean, most });
-        }
+        self.settling = Some(times);
     }
 }
 
@@ -118,9 +107,11 @@ pub fn attractor_table(
     let measured = is_grid && several;
     let entropy = measured.then(|| entropy(&shape, label, BOX)).flatten();
     let uncertainty = measured.then(|| uncertainty(&shape, label)).flatten();
+    let wada = measured.then(|| wada(&shape, label, rows.len())).flatten();
     let edges = edges(study, attractors, machine);
     let inferred = check_starts(study, attractors, final_motions, machine)?;
-    Ok(AttractorTable { rows, along: None, entropy, uncertainty, edges, inferred })
+    let settling = None;
+    Ok(AttractorTable { rows, along: None, entropy, uncertainty, wada, settling, edges, inferred })
 }
 
 /// The rows of the attractors that are `found`, each with its share, but for what a grid of starts tells of their basins.

@@ -4,15 +4,16 @@ use ndarray::{ArrayD, IxDyn};
 
 use super::catalogue::{
     ATTRACTOR, ATTRACTOR_AXIS, ATTRACTOR_CASE, ATTRACTOR_CASES, ATTRACTOR_CERTIFICATE,
-    ATTRACTOR_CYCLE, ATTRACTOR_CYCLES_MEAN, ATTRACTOR_CYCLES_MOST, ATTRACTOR_INDEX,
-    ATTRACTOR_INTEGRITY_ERROR, ATTRACTOR_INTEGRITY_FACTOR, ATTRACTOR_KIND,
-    ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_MULTIPLIER_IMAG, ATTRACTOR_MULTIPLIER_REAL,
-    ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, ATTRACTOR_SHARE_HIGH,
-    ATTRACTOR_SHARE_LOW, BASIN_ENTROPY, BASIN_ENTROPY_BOX, BASIN_ENTROPY_ERROR,
-    BOUNDARY_BASIN_ENTROPY, BOUNDARY_BASIN_ENTROPY_ERROR, EDGE_CYCLE, EDGE_HIGH, EDGE_INDEX,
-    EDGE_LOW, EDGE_MULTIPLIER_IMAG, EDGE_MULTIPLIER_REAL, EDGE_PERIOD, EDGE_RESIDUAL, EVENT,
-    EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, INFERRED_ELSEWHERE,
-    INFERRED_SAMPLE, Place, edges as edge_entries, section,
+    ATTRACTOR_CYCLE, ATTRACTOR_CYCLES_90, ATTRACTOR_CYCLES_99, ATTRACTOR_CYCLES_MEAN,
+    ATTRACTOR_CYCLES_MEDIAN, ATTRACTOR_CYCLES_MOST, ATTRACTOR_INDEX, ATTRACTOR_INTEGRITY_ERROR,
+    ATTRACTOR_INTEGRITY_FACTOR, ATTRACTOR_KIND, ATTRACTOR_MINIMAL_CRITICAL_SHOCK,
+    ATTRACTOR_MULTIPLIER_IMAG, ATTRACTOR_MULTIPLIER_REAL, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
+    ATTRACTOR_SHARE_ERROR, ATTRACTOR_SHARE_HIGH, ATTRACTOR_SHARE_LOW, BASIN_ENTROPY,
+    BASIN_ENTROPY_BOX, BASIN_ENTROPY_ERROR, BOUNDARY_BASIN_ENTROPY, BOUNDARY_BASIN_ENTROPY_ERROR,
+    EDGE_CYCLE, EDGE_HIGH, EDGE_INDEX, EDGE_LOW, EDGE_MULTIPLIER_IMAG, EDGE_MULTIPLIER_REAL,
+    EDGE_PERIOD, EDGE_RESIDUAL, EVENT, EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD,
+    EVENT_UNCERTAINTY, Entry, INFERRED_ELSEWHERE, INFERRED_SAMPLE, Place, SETTLED_CYCLES,
+    SETTLED_NEVER, SETTLED_SHARE, SETTLED_STEP, edges as edge_entries, section,
 };
 use super::columns::Columns;
 use super::{Dataset, Values, boundary};
@@ -20,7 +21,10 @@ use crate::attractor::{Entropy, Integrity};
 use crate::description::{Description, Section};
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
-use crate::run::{AttractorRow, AttractorTable, Attractors, Edge, InferredSample, SharesAt};
+use crate::run::{
+    AttractorRow, AttractorTable, Attractors, Edge, InferredSample, Settling, SettlingTimes,
+    SharesAt,
+};
 use crate::study::{Coordinate, Study};
 
 /// Adds to the dataset of a study which attractor each case has ended on, the table of the attractors of starts, and
@@ -67,6 +71,11 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
     columns.integers(ATTRACTOR_CASE, |row| row.attractor.case as i64);
     columns.integers(ATTRACTOR_CASES, |row| row.share.starts as i64);
     if rows.iter().any(|row| row.settling.is_some()) {
+        let quantiles = [ATTRACTOR_CYCLES_MEDIAN, ATTRACTOR_CYCLES_90, ATTRACTOR_CYCLES_99];
+        for (at, entry) in quantiles.into_iter().enumerate() {
+            let quantile = |it: Settling| it.quantiles[at] as i64;
+            columns.integers(entry, |row| row.settling.map_or(0, quantile));
+        }
         columns.integers(ATTRACTOR_CYCLES_MOST, |row| row.settling.map_or(0, |it| it.most as i64));
         columns.reals(ATTRACTOR_CYCLES_MEAN, |row| row.settling.map_or(f64::NAN, |it| it.mean));
     }
@@ -216,9 +225,26 @@ fn add_measures(dataset: &mut Dataset, table: &AttractorTable) {
     if let Some(uncertainty) = &table.uncertainty {
         boundary::add(dataset, uncertainty);
     }
+    if let Some(wada) = &table.wada {
+        boundary::add_wada(dataset, wada);
+    }
+    if let Some(times) = &table.settling {
+        add_settled(dataset, times);
+    }
     if let Some(sample) = table.inferred {
         add_sample(dataset, sample);
     }
+}
+
+/// Adds which share of the starts has settled after so many cycles, and how many never do.
+fn add_settled(dataset: &mut Dataset, times: &SettlingTimes) {
+    dataset.put(SETTLED_NEVER, &[], Values::integer(times.unsettled() as i64));
+    let curve = times.curve();
+    let Some(first) = curve.first() else { return };
+    dataset.put_coordinate(SETTLED_STEP, Values::count(curve.len()));
+    let mut columns = Columns { dataset, rows: &curve };
+    columns.integers(SETTLED_CYCLES, |at| at.cycles as i64);
+    columns.several(SETTLED_SHARE, first.shares.len(), |at, number| at.shares[number]);
 }
 
 /// Adds how many of a sample of inferred cases are not as was inferred.

@@ -5,10 +5,14 @@ use std::collections::BTreeSet;
 use super::axis::Spacing;
 use super::document::{Entry, Table};
 use super::draws::{DrawKind, Range};
-use super::{Axis, CaseSet, Coordinate, Draws, Grid};
+use super::{Axis, CaseSet, Coordinate, Draws, Grid, Normal};
+use crate::quantity::Allowed;
 
 /// More values on an axis, and more draws, than this are taken for a slip of the pen.
 const MOST_VALUES: u64 = 10_000_000;
+
+/// A distribution that has less than this in its range is taken for a slip of the pen.
+const LEAST_PROBABILITY: f64 = 1e-9;
 
 /// Reads `[[axes]]` and `[draws]`.
 pub(super) fn read_case_set(top: &Table<'_, '_>) -> CaseSet {
@@ -25,7 +29,7 @@ pub(super) fn read_case_set(top: &Table<'_, '_>) -> CaseSet {
         let name = table.entry("name");
         let coordinate = read_name(&table, name.as_ref());
         let values = (!is_drawn).then(|| read_values(&table, coordinate).unwrap_or_default());
-        let ends = if is_drawn { read_range(&table, coordinate) } else { None };
+        let range = if is_drawn { read_range(&table, coordinate) } else { None };
         table.finish();
         let (Some(name), Some(coordinate)) = (name, coordinate) else { continue };
         if seen.contains(&coordinate) {
@@ -33,10 +37,10 @@ pub(super) fn read_case_set(top: &Table<'_, '_>) -> CaseSet {
             continue;
         }
         seen.push(coordinate);
-        // With faulty values too: what else names this axis is not at fault.
+        // With ends values too: what else names this axis is not at fault.
         axes.extend(values.map(|values| Axis { coordinate, values }));
-        let (from, to, spacing) = ends.unwrap_or((f64::NAN, f64::NAN, Spacing::Linear));
-        ranges.push(Range { coordinate, from, to, spacing });
+        let unread = Range::even(coordinate, [f64::NAN; 2], Spacing::Linear);
+        ranges.push(range.unwrap_or(unread));
     }
     match draws {
         Some(draws) => CaseSet::Draws(Draws { ranges, ..draws }),
@@ -129,22 +133,58 @@ fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<
 }
 
 /// The range that an axis is drawn from.
-fn read_range(
-    table: &Table<'_, '_>,
-    coordinate: Option<Coordinate>,
-) -> Option<(f64, f64, Spacing)> {
+fn read_range(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<Range> {
     for key in ["values", "points"] {
         if let Some(extra) = table.entry(key) {
             extra.fault("does not go with `[draws]`: an axis has a range, `from` and `to`");
         }
     }
-    let ends = read_ends(table, coordinate, "from and to, the range to draw from")?;
-    if ends.0 == ends.1 {
+    if table.entry("mean").is_some() || table.entry("deviation").is_some() {
+        return read_normal(table, coordinate);
+    }
+    let expected = "from and to, the range to draw from, or mean and deviation";
+    let (from, to, spacing) = read_ends(table, coordinate, expected)?;
+    if from == to {
         let to = table.entry("to")?;
         to.fault(format!("{} is the same as `from`; expected another value", to.shown()));
         return None;
     }
-    Some(ends)
+    Some(Range::even(coordinate?, [from, to], spacing))
+}
+
+/// The range of a normal distribution, which `mean` and `deviation` say: it ends where `from` and `to` say, or where the quantity
+/// has its bounds, six deviations from the mean at most.
+fn read_normal(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<Range> {
+    for key in ["mean", "deviation"] {
+        if table.entry(key).is_none() {
+            table.missing(key, "mean and deviation, of a normal distribution");
+        }
+    }
+    if let Some(spacing) = table.entry("spacing") {
+        spacing.fault("does not go with `mean` and `deviation`: the value itself is distributed");
+    }
+    let coordinate = coordinate?;
+    let dimension = coordinate.dimension();
+    let mean = table.entry("mean").and_then(|it| it.allowed_quantity(dimension, Allowed::Finite));
+    let deviation =
+        table.entry("deviation").and_then(|it| it.allowed_quantity(dimension, Allowed::Positive));
+    let given = ["from", "to"].map(|key| table.entry(key));
+    let ends = given.each_ref().map(|it| it.as_ref().map(|it| quantity(it, Some(coordinate))));
+    let (mean, deviation) = (mean?, deviation?);
+    let [least, most] = coordinate.allowed().ends();
+    let far = Normal::FAR * deviation;
+    let from = ends[0].unwrap_or(Some((mean - far).max(least)))?;
+    let to = ends[1].unwrap_or(Some((mean + far).min(most)))?;
+    let normal = Normal { mean, deviation };
+    if from >= to || normal.probability(from, to) < LEAST_PROBABILITY {
+        let entry = table.entry("mean")?;
+        entry.fault(format!(
+            "{} with this deviation leaves nothing to draw from {from} to {to} in SI units; expected a range near the mean, the lower end first",
+            entry.shown()
+        ));
+        return None;
+    }
+    Some(Range { coordinate, from, to, spacing: Spacing::Linear, normal: Some(normal) })
 }
 
 /// The ends of an axis and what lies between them.

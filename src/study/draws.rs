@@ -1,7 +1,9 @@
 //! Cases drawn from ranges, each of them computed from its index alone.
 
-use super::Coordinate;
+use std::fmt::{self, Debug, Formatter};
+
 use super::axis::Spacing;
+use super::{Coordinate, Normal};
 
 /// How points are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -25,7 +27,7 @@ impl DrawKind {
 }
 
 /// What is drawn and from where (SI).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Range {
     /// What is drawn.
     pub coordinate: Coordinate,
@@ -35,6 +37,42 @@ pub struct Range {
     pub to: f64,
     /// Whether the value is evenly distributed or its logarithm.
     pub spacing: Spacing,
+    /// The distribution of the value, cut at the two ends, where it is not evenly distributed.
+    pub normal: Option<Normal>,
+}
+
+impl Range {
+    /// A range over which a value, or its logarithm, is evenly distributed.
+    pub fn even(coordinate: Coordinate, [from, to]: [f64; 2], spacing: Spacing) -> Range {
+        Range { coordinate, from, to, spacing, normal: None }
+    }
+
+    /// What is to be said of a distribution that is cut; none of an even one.
+    pub(super) fn remark(&self) -> Option<String> {
+        let Normal { mean, deviation } = self.normal?;
+        let (name, unit) = (self.coordinate.name(), self.coordinate.dimension().unit());
+        let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+        let left_out = 1.0 - self.normal?.probability(self.from, self.to);
+        Some(format!(
+            "{name} is drawn from a normal distribution of mean {mean}{unit} and deviation {deviation}{unit}, cut at {}{unit} and {}{unit}, \
+             which leaves out {left_out:.1e} of it",
+            self.from, self.to
+        ))
+    }
+}
+
+/// As fingerprints of studies have it: an even range as before there were others.
+impl Debug for Range {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Range { coordinate, from, to, spacing, normal } = self;
+        let mut fields = f.debug_struct("Range");
+        fields.field("coordinate", coordinate).field("from", from).field("to", to);
+        fields.field("spacing", spacing);
+        if let Some(normal) = normal {
+            fields.field("normal", normal);
+        }
+        fields.finish()
+    }
 }
 
 /// Points drawn from ranges.
@@ -62,8 +100,12 @@ impl Draws {
 
     /// Value of range number `place` in draw `index`.
     pub fn value(&self, index: usize, place: usize) -> f64 {
-        let Range { from, to, spacing, .. } = self.ranges[place];
-        let value = spacing.at(from, to, self.share(index, place));
+        let Range { from, to, spacing, normal, .. } = self.ranges[place];
+        let share = self.share(index, place);
+        let value = match normal {
+            None => spacing.at(from, to, share),
+            Some(normal) => normal.quantile(from, to, share),
+        };
         value.clamp(from.min(to), from.max(to))
     }
 

@@ -19,6 +19,7 @@ pub mod include;
 pub(crate) mod layout;
 mod named_model;
 pub mod named_system;
+mod normal;
 mod parameter_table;
 pub mod ramp;
 mod ramp_file;
@@ -44,5 +45,6 @@ pub use drawing::{
 };
 pub use draws::{DrawKind, Draws, Range};
 pub use grid::{Direction, Grid, Inherit};
+pub use normal::Normal;
 pub use ramp::{Beginning, Ramp};
 pub use refinement::{Refine, Refinement, Refining};

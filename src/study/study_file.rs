@@ -8,6 +8,7 @@ use super::conflicts::refuse;
 use super::definition::{Study, usual_outputs, with_parts};
 use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
+use super::draws::Range;
 use super::include;
 use super::named_model::{check_model, model_in};
 use super::parameter_table::{ParameterTable, read_parameters};
@@ -79,6 +80,9 @@ fn read_study(top: &Table<'_, '_>) -> Study {
         .collect();
     let with_all_parts = with_parts(&base, &varied_anywhere(&case_set, &varied_beside));
     remarks.extend(given_without_effect(&with_all_parts, &given));
+    if let CaseSet::Draws(draws) = &case_set {
+        remarks.extend(draws.ranges.iter().filter_map(Range::remark));
+    }
     Study {
         title: String::new(),
         text: String::new(),

@@ -6,8 +6,8 @@ use super::drawing_text::write_drawing;
 use super::draws::Range;
 use super::toml_text::{Document, inline, list, number, plain_quantity, quantity, text};
 use super::{
-    Axis, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit, Ramp, Refine,
-    Spacing, Study,
+    Axis, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit, Normal, Ramp,
+    Refine, Spacing, Study,
 };
 use crate::description::{Parameter, Parameters, Presence, State};
 use crate::of::default_model;
@@ -237,12 +237,19 @@ fn write_draws(document: &mut Document, draws: &Draws) {
     document.put("kind", text(draws.kind.name()));
     document.put("count", draws.count);
     document.put("seed", draws.seed);
-    for Range { coordinate, from, to, spacing } in &draws.ranges {
+    for Range { coordinate, from, to, spacing, normal } in &draws.ranges {
+        let dimension = coordinate.dimension();
         document.element("axes");
         document.put("name", text(coordinate.name()));
-        document.put("from", quantity(*from, coordinate.dimension()));
-        document.put("to", quantity(*to, coordinate.dimension()));
-        document.put("spacing", text(spacing.name()));
+        document.put("from", quantity(*from, dimension));
+        document.put("to", quantity(*to, dimension));
+        match normal {
+            None => document.put("spacing", text(spacing.name())),
+            Some(Normal { mean, deviation }) => {
+                document.put("mean", quantity(*mean, dimension));
+                document.put("deviation", quantity(*deviation, dimension));
+            }
+        }
     }
 }
 

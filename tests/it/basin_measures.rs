@@ -50,7 +50,7 @@ fn shares_of_two_seeds_agree_as_their_errors_say() {
 }
 
 /// The labels of a map on a grid of cells over two ranges.
-fn map_labels(
+pub fn map_labels(
     side: usize,
     [x, y]: [[f64; 2]; 2],
     label: impl Fn([f64; 2]) -> Option<u32>,
@@ -62,7 +62,7 @@ fn map_labels(
 }
 
 /// Newton's method for z^3 = 1: the root that it leads to.
-fn newton([mut x, mut y]: [f64; 2]) -> Option<u32> {
+pub fn newton([mut x, mut y]: [f64; 2]) -> Option<u32> {
     for _ in 0..200 {
         let (square, cross) = (x * x - y * y, 2.0 * x * y);
         let norm = 3.0 * (square * square + cross * cross);
@@ -76,7 +76,7 @@ fn newton([mut x, mut y]: [f64; 2]) -> Option<u32> {
 }
 
 /// The map of Grebogi, Ott and Yorke (1983) with two fixed points that attract, (0, -0.3) and (pi, 0.3).
-fn grebogi([mut theta, mut x]: [f64; 2]) -> Option<u32> {
+pub fn grebogi([mut theta, mut x]: [f64; 2]) -> Option<u32> {
     for _ in 0..1000 {
         let turned =
             theta + 1.32 * (2.0 * theta).sin() - 0.9 * (4.0 * theta).sin() - x * theta.sin();

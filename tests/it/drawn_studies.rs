@@ -63,7 +63,7 @@ fn read(text: &str) -> Study {
 /// `count` points in the unit cube of so many sides.
 fn unit(kind: DrawKind, count: usize, sides: usize, seed: u64) -> Draws {
     let coordinates = Coordinate::all(&CAPSULE).take(sides);
-    let range = |coordinate| Range { coordinate, from: 0.0, to: 1.0, spacing: Spacing::Linear };
+    let range = |coordinate| Range::even(coordinate, [0.0, 1.0], Spacing::Linear);
     Draws { kind, count, seed, ranges: coordinates.map(range).collect() }
 }
 
@@ -84,7 +84,8 @@ fn draws_lie_in_their_ranges_and_depend_on_index_and_seed_alone() {
             (0.1, 0.1 + 1e-16 * 2.0, Spacing::Logarithmic),
         ];
         let own = Coordinate::all(&CAPSULE).zip(ranges);
-        let range = |(coordinate, (from, to, spacing))| Range { coordinate, from, to, spacing };
+        let range =
+            |(coordinate, (from, to, spacing))| Range::even(coordinate, [from, to], spacing);
         let draws = Draws { kind, count: 4000, seed: 7, ranges: own.map(range).collect() };
         let all = points(&draws);
         for point in &all {

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::program::{FIG5, WorkDir};
+use super::program::{FIG5, TWO_MOTIONS, WorkDir};
 use super::text_recordings::put_wall;
 
 /// A folder in which examples run: studies, a rig, and the files that examples name.
@@ -90,4 +90,24 @@ fn every_example_of_the_help_runs() {
         }
     }
     assert!(count >= 8, "{count} examples");
+}
+
+#[test]
+fn the_examples_of_tipping_run() {
+    let work = WorkDir::new();
+    let axes = "[[axes]]\nname = \"omega\"\nvalues = [\"157 rad/s\", \"160 rad/s\", \"165 rad/s\"]\n\
+                [[axes]]\nname = \"start_y1\"\nfrom = \"-1.5 m/s\"\nto = \"1.5 m/s\"\npoints = 9\n";
+    work.put("erosion.toml", format!("{TWO_MOTIONS}{axes}"));
+    work.run(&["sweep", "erosion.toml"]).done();
+    fs::copy(work.path("results/erosion/erosion.h5"), work.path("FILE.h5")).expect("copied");
+    let help = work.run(&["tipping", "--help"]).done().out;
+    let all = examples(&help);
+    for example in &all {
+        let command = example.split(" | ").next().expect("a command");
+        let words = words(command);
+        let arguments: Vec<&str> = words.iter().map(String::as_str).collect();
+        let ran = work.run(&arguments).done();
+        assert!(ran.out.contains("omega"), "{example}: {}", ran.out);
+    }
+    assert_eq!(all.len(), 3);
 }

@@ -2,6 +2,7 @@
 
 mod attractors;
 mod basin_measures;
+mod basin_settling;
 mod basins;
 mod blocks;
 mod boundary_scaling;
@@ -59,6 +60,7 @@ mod measured_points;
 mod members;
 mod motion_fits;
 mod mutants;
+mod normal_starts;
 mod numbers;
 mod one_coefficient;
 mod optima;
@@ -98,10 +100,12 @@ mod smoothed_records;
 mod store;
 mod study;
 mod text_recordings;
+mod tipping;
 mod texts;
 mod tolerances;
 mod trade_offs;
 mod tradeoff;
+mod wada;
 mod wrong_inputs;
 mod written_figures;
 mod written_studies;

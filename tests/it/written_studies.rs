@@ -12,7 +12,7 @@ use capsulemap::orbit::{HistorySpan, Protocol};
 use capsulemap::quantity::Allowed;
 use capsulemap::study::{
     Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Draws, FirstOrbit, Grid, Inherit,
-    Range, Refine, Spacing, Study,
+    Normal, Range, Refine, Spacing, Study,
 };
 
 use super::random_numbers::Random;
@@ -45,10 +45,17 @@ impl Random {
 
     fn range(&mut self, coordinate: Coordinate) -> Range {
         let [from, to] = self.ends(coordinate.allowed());
+        if from < to && self.is_so() {
+            let normal = Normal { mean: 0.5 * (from + to), deviation: 0.3 * (to - from) };
+            return Range {
+                normal: Some(normal),
+                ..Range::even(coordinate, [from, to], Spacing::Linear)
+            };
+        }
         let can_be_log = from > 0.0 && to > 0.0;
         let spacing =
             if can_be_log && self.is_so() { Spacing::Logarithmic } else { Spacing::Linear };
-        Range { coordinate, from, to, spacing }
+        Range::even(coordinate, [from, to], spacing)
     }
 
     fn case_set(&mut self) -> CaseSet {

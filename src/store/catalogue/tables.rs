@@ -39,6 +39,12 @@ entries! {
         "diagonal of a cell of the grid, by which a boundary may be nearer than the integrity factor says";
     ATTRACTOR_CYCLES_MEAN "attractor_cycles_mean" "1" Table(ATTRACTOR_INDEX.name), Real, None,
         "mean number of cycles for which the starts of the attractor were followed until it was decided";
+    ATTRACTOR_CYCLES_MEDIAN "attractor_cycles_median" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
+        "number of cycles within which half of the starts of the attractor were decided";
+    ATTRACTOR_CYCLES_90 "attractor_cycles_90" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
+        "number of cycles within which 90 percent of the starts of the attractor were decided";
+    ATTRACTOR_CYCLES_99 "attractor_cycles_99" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
+        "number of cycles within which 99 percent of the starts of the attractor were decided";
     ATTRACTOR_CYCLES_MOST "attractor_cycles_most" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
         "largest number of cycles for which a start of the attractor was followed until it was decided";
     ATTRACTOR_MULTIPLIER_REAL "attractor_multiplier_real" "1"
@@ -47,6 +53,15 @@ entries! {
     ATTRACTOR_MULTIPLIER_IMAG "attractor_multiplier_imag" "1"
         TableRow(ATTRACTOR_INDEX.name, MULTIPLIER.name), Real, None,
         "imaginary part of a Floquet multiplier of the attractor";
+
+    SETTLED_STEP "settled_step" "1" Dimension, Whole, None,
+        "number of cycles after which it is told which starts have settled, the least first";
+    SETTLED_CYCLES "settled_cycles" "1" Table(SETTLED_STEP.name), Whole, None,
+        "cycles from the start on";
+    SETTLED_SHARE "settled_share" "1" TableRow(SETTLED_STEP.name, ATTRACTOR_INDEX.name), Real, None,
+        "share of all starts that were followed which have been decided to lead to the attractor within these cycles";
+    SETTLED_NEVER "settled_never" "1" Once, Whole, None,
+        "starts that were followed and lead to no known attractor, which never count as settled";
 
     INFERRED_SAMPLE "inferred_sample" "1" Once, Whole, None,
         "inferred cases that were computed as a check";
@@ -102,6 +117,31 @@ entries! {
         "local slope: the uncertainty exponent between the size and the next that a boundary crosses";
     UNCERTAINTY_SLOPE_ERROR "uncertainty_slope_error" "1" Table(UNCERTAINTY_SIZE.name), Real, None,
         "statistical error of the local slope, by leaving out slabs of the grid";
+
+    WADA_PAIR "wada_pair" "1" Dimension, Whole, None,
+        "boundary of a basin beside that of another";
+    WADA_SCALE "wada_scale" "1" Dimension, Whole, None,
+        "radius to within which boundaries are compared, the smallest first";
+    WADA_BOUNDARY "wada_boundary" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
+        "starts on the boundary between the basin of the attractor and all others merged";
+    WADA_OF "wada_of" "1" Table(WADA_PAIR.name), Whole, None,
+        "attractor whose boundary is looked at";
+    WADA_FROM "wada_from" "1" Table(WADA_PAIR.name), Whole, None,
+        "attractor from whose boundary distances are told";
+    WADA_DISTANCE "wada_distance" "1" Table(WADA_PAIR.name), Real, None,
+        "largest Euclidean distance of a start on the one boundary from the other, in starts along the axes";
+    WADA_PAIR_FARTHER "wada_pair_farther" "1" TableRow(WADA_PAIR.name, WADA_SCALE.name), Real, None,
+        "share of the starts on the one boundary that are farther from the other than the radius";
+    WADA_RADIUS "wada_radius" "1" Table(WADA_SCALE.name), Whole, None,
+        "radius in starts along the axes";
+    WADA_FARTHER "wada_farther" "1" Table(WADA_SCALE.name), Real, None,
+        "largest share of a boundary that is farther from another one than the radius: 0 where the basins are Wada to within it";
+    WADA_COVERED "wada_covered" "1" Table(WADA_SCALE.name), Real, None,
+        "largest share of all starts that are within the radius of one boundary: near 1 the radius tells nothing";
+    WADA_LEAST_RADIUS "wada_least_radius" "1" Once, Whole, None,
+        "least of the radii to within which all basins have one boundary, 0 where none is";
+    WADA_UNKNOWN "wada_unknown" "1" Once, Whole, None,
+        "starts without a known attractor, beside which no boundary is told";
 
     EVENT "event" "1" Dimension, Whole, None,
         "event of an attractor";

@@ -68,23 +68,22 @@ to = "0.4 m/s"
 "#,
     r#"
 [parameters]
-m2 = "0.2 kg"
-c = "1.77 N s/m"
-mu_s = 0.33
-mu_d = 0.165
-p_d = "2.79 N"
-k2 = "65.518 kN/m"
-delta = "4.33 mm"
-omega = "155 rad/s"
+k2 = "60 kN/m"
+c = "0.2 N s/m"
+mu_s = 0.3
+mu_d = 0.25
+delta = "2 mm"
+omega = "45 rad/s"
+p_d = "5.375 N"
 [[axes]]
 name = "start_r"
-from = "-6 mm"
-to = "6 mm"
+from = "-30 mm"
+to = "5 mm"
 points = 64
 [[axes]]
 name = "start_y1"
-from = "-1.5 m/s"
-to = "1.5 m/s"
+from = "-1 m/s"
+to = "1 m/s"
 points = 64
 "#,
     r#"

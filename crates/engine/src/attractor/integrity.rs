@@ -1,5 +1,6 @@
 //! How much room a basin has where it is widest.
 
+use super::distance::squares_of_distances;
 use super::share::Label;
 
 /// How much room the basin of an attractor has, by a grid of starts.
@@ -31,23 +32,7 @@ fn largest_gap(axis: &[f64]) -> f64 {
 }
 
 fn largest_ball(axes: &[Vec<f64>], own: impl Fn(usize) -> bool) -> f64 {
-    let starts = axes.iter().map(Vec::len).product();
-    let mut squares: Vec<f64> =
-        (0..starts).map(|start| if own(start) { f64::INFINITY } else { 0.0 }).collect();
-    let mut spacing = starts;
-    for axis in axes {
-        let block = spacing;
-        spacing /= axis.len();
-        // An axis may fall.
-        let mut order: Vec<usize> = (0..axis.len()).collect();
-        order.sort_by(|a, b| axis[*a].total_cmp(&axis[*b]));
-        let rising: Vec<f64> = order.iter().map(|at| axis[*at]).collect();
-        for first in (0..starts).step_by(block) {
-            for line in first..first + spacing {
-                transform(&rising, &mut squares, |at| line + order[at] * spacing);
-            }
-        }
-    }
+    let squares = squares_of_distances(axes, |start| !own(start));
     let ends: Vec<[f64; 2]> = axes.iter().map(|axis| ends_of(axis)).collect();
     let mut largest: f64 = 0.0;
     each_start(axes, |start, at| {
@@ -65,35 +50,6 @@ fn ends_of(axis: &[f64]) -> [f64; 2] {
         // An axis of one start has no extent.
         1 => [f64::NEG_INFINITY, f64::INFINITY],
         _ => [f64::min, f64::max].map(|it| axis.iter().copied().fold(axis[0], it)),
-    }
-}
-
-/// Replaces the numbers f at the rising positions x of a line by the least of f(q) + (x - x(q))^2 over the line, as the lower envelope of
-/// parabolas; `place` tells where they are.
-fn transform(x: &[f64], numbers: &mut [f64], place: impl Fn(usize) -> usize) {
-    // The parabolas of the envelope, and from where on each is the lowest.
-    let mut lowest: Vec<(usize, f64)> = Vec::with_capacity(x.len());
-    let f: Vec<f64> = (0..x.len()).map(|at| numbers[place(at)]).collect();
-    for q in (0..x.len()).filter(|&q| f[q].is_finite()) {
-        let mut from = f64::NEG_INFINITY;
-        while let Some(&(p, begins)) = lowest.last() {
-            from = 0.5 * (x[q] + x[p] + (f[q] - f[p]) / (x[q] - x[p]));
-            if from > begins {
-                break;
-            }
-            lowest.pop();
-            from = f64::NEG_INFINITY;
-        }
-        lowest.push((q, from));
-    }
-    let mut at = 0;
-    for (to, &x_to) in x.iter().enumerate() {
-        while at + 1 < lowest.len() && lowest[at + 1].1 < x_to {
-            at += 1;
-        }
-        if let Some(&(q, _)) = lowest.get(at) {
-            numbers[place(to)] = f[q] + (x_to - x[q]) * (x_to - x[q]);
-        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod basin;
 mod bridge;
+mod distance;
 mod edge;
 mod final_motion;
 mod identity;
@@ -11,6 +12,7 @@ mod share;
 mod shock;
 mod table;
 mod uncertainty;
+mod wada;
 
 pub use basin::{Entropy, Estimate, entropy};
 pub use bridge::{Bridge, bridges};
@@ -19,7 +21,8 @@ pub use final_motion::FinalMotion;
 pub use identity::{Attractor, coincide};
 pub use integrity::{Integrity, integrity};
 pub use link::{LinearOrbits, Links, Neighbours, linear_orbits};
-pub use share::{Label, Share, shares_of_draws, shares_of_grid};
+pub use share::{Label, Share, shares_of_draws, shares_of_grid, weighted_shares_of_grid};
 pub use shock::{Shock, minimal_critical_shock};
 pub use table::{Executor, Serial, Table, attractors_of};
 pub use uncertainty::{BoxSize, LocalSlope, Uncertainty, uncertainty};
+pub use wada::{BoundaryPair, Wada, WadaScale, wada};

@@ -52,10 +52,9 @@ impl Share {
         Share { starts, value: p, error: (p * (1.0 - p) / n).sqrt(), interval }
     }
 
-    /// That of so many of all starts of a grid, whose number has this variance.
-    fn of_grid(starts: usize, all: usize, variance: f64) -> Share {
-        let (value, error) = (starts as f64 / all as f64, variance.sqrt() / all as f64);
-        Share { starts, value, error, interval: None }
+    /// That of so many starts of a grid by their weight and the variance of it, where all have the weight `all`.
+    fn of_grid(starts: usize, weight: f64, variance: f64, all: f64) -> Share {
+        Share { starts, value: weight / all, error: variance.sqrt() / all, interval: None }
     }
 }
 
@@ -69,14 +68,37 @@ pub fn shares_of_grid(
     label: impl Fn(usize) -> Label,
     attractors: usize,
 ) -> Vec<Share> {
+    weighted_shares_of_grid(shape, label, attractors, |_| 1.0)
+}
+
+/// The same where each start has a `weight`, zero or above: the probability that a start which is drawn from a distribution lies in its
+/// cell, or a multiple of it. All shares are NaN where no start that has been computed has any.
+///
+/// Error: that of [`shares_of_grid`], in which each start counts with the square of its weight.
+/// Breaks: the error is too small where a few cells beside a boundary have most of the weight.
+pub fn weighted_shares_of_grid(
+    shape: &[usize],
+    label: impl Fn(usize) -> Label,
+    attractors: usize,
+    weight: impl Fn(usize) -> f64,
+) -> Vec<Share> {
     let starts = shape.iter().product();
-    let (counts, all) = counted(starts, &label, attractors);
-    if all < starts {
-        return counts.into_iter().map(|it| Share::of_grid(it, all, f64::NAN)).collect();
-    }
-    let mut variances = vec![0.0; attractors];
+    let (mut weights, mut variances) = (vec![0.0; attractors], vec![0.0; attractors]);
+    let (mut all, mut is_missing) = (0.0, false);
     let mut near: Vec<Label> = Vec::new();
     for start in 0..starts {
+        let own = match label(start) {
+            Label::Missing => {
+                is_missing = true;
+                continue;
+            }
+            own => own,
+        };
+        let weight = weight(start);
+        all += weight;
+        if let Label::Attractor(number) = own {
+            weights[number as usize] += weight;
+        }
         see_neighbours(shape, start, &label, &mut near);
         if near.iter().all(|it| *it == near[0]) {
             continue;
@@ -87,12 +109,17 @@ pub fn shares_of_grid(
                 && !near[..place].contains(it)
             {
                 let q = near.iter().filter(|other| *other == it).count() as f64 / known;
-                variances[*number as usize] += q * (1.0 - q);
+                variances[*number as usize] += weight * weight * q * (1.0 - q);
             }
         }
     }
-    let both = counts.into_iter().zip(variances);
-    both.map(|(starts, variance)| Share::of_grid(starts, all, variance)).collect()
+    let (counts, _) = counted(starts, &label, attractors);
+    let each = counts.into_iter().zip(weights).zip(variances);
+    each.map(|((starts, weight), variance)| {
+        let variance = if is_missing { f64::NAN } else { variance };
+        Share::of_grid(starts, weight, variance, all)
+    })
+    .collect()
 }
 
 /// Sees the label of a start of a grid, and those of its neighbours along the axes.

@@ -46,6 +46,14 @@ impl Bounds {
         below: f64::INFINITY,
     };
 
+    /// The least and the greatest number within them; infinite where there is none.
+    pub fn ends(self) -> [f64; 2] {
+        let Bounds { least, above, most, below } = self;
+        let least = if above.is_finite() { least.max(above.next_up()) } else { least };
+        let most = if below.is_finite() { most.min(below.next_down()) } else { most };
+        [least, most]
+    }
+
     /// Whether a finite value is within them.
     pub fn admit(self, value: f64) -> bool {
         let Bounds { least, above, most, below } = self;
@@ -81,6 +89,22 @@ impl Allowed {
                 Allowed::Slope => value.abs() < FRAC_PI_2,
                 Allowed::Within(bounds) => bounds.admit(value),
             }
+    }
+}
+
+impl Allowed {
+    /// The least and the greatest number that may be used; infinite where there is none.
+    pub fn ends(self) -> [f64; 2] {
+        match self {
+            Allowed::Finite => [f64::NEG_INFINITY, f64::INFINITY],
+            Allowed::NonNegative => [0.0, f64::INFINITY],
+            Allowed::Positive => [f64::MIN_POSITIVE, f64::INFINITY],
+            Allowed::Share => [f64::MIN_POSITIVE, 1.0_f64.next_down()],
+            Allowed::UpToOne => [0.0, 1.0],
+            Allowed::UpToTen => [0.0, 10.0],
+            Allowed::Slope => [-FRAC_PI_2.next_down(), FRAC_PI_2.next_down()],
+            Allowed::Within(bounds) => bounds.ends(),
+        }
     }
 }
 

@@ -1,0 +1,84 @@
+//! Where motions go when the parameter of a file of basins steps, from the file.
+
+use std::path::Path;
+
+use super::error::CampaignError;
+use super::study_source::study_of;
+use crate::attractor::Label;
+use crate::run::{self, Machine, Step, Steps, Tipping};
+use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_AXIS, OUTCOME};
+use crate::store::{Archive, Values};
+use crate::study::{Axis, Coordinate, Study};
+
+/// A file of basins along a parameter.
+#[derive(Debug)]
+pub struct BasinsAlong {
+    study: Study,
+    axis: Axis,
+    labels: Vec<Label>,
+}
+
+impl BasinsAlong {
+    /// Those of an archive, the file at `path`.
+    ///
+    /// Fails where it has none, cannot be read, or cases were inferred or are missing.
+    pub fn of(archive: &Archive, path: &Path) -> Result<BasinsAlong, CampaignError> {
+        let none = || {
+            CampaignError::of_path(
+                path,
+                "holds no basins along a parameter: a grid of one parameter whose other axes are starts",
+            )
+        };
+        let study = study_of(archive, path)?;
+        let along = archive.frame().attributes.get(ATTRACTOR_AXIS).ok_or_else(none)?;
+        let mut axes = study.axes().iter();
+        let axis = axes.find(|it| it.coordinate.name() == along).ok_or_else(none)?.clone();
+        let others = study.axes().iter().filter(|it| it.coordinate != axis.coordinate);
+        let is_start = others.clone().all(|it| it.coordinate.is_start());
+        if !is_start || others.count() == 0 || study.inherit().is_some() {
+            return Err(none());
+        }
+        let numbers = archive.variable(ATTRACTOR.name)?.ok_or_else(none)?;
+        let Values::Integer(numbers) = &numbers.values else { return Err(none()) };
+        let outcomes = archive.variable(OUTCOME.name)?.ok_or_else(none)?;
+        if outcomes.names().contains(&Some("missing")) {
+            return Err(CampaignError::of_path(path, "lacks cases; complete it first"));
+        }
+        let label =
+            |number: &i64| u32::try_from(*number).map_or(Label::Undecided, Label::Attractor);
+        let labels = numbers.iter().map(label).collect();
+        Ok(BasinsAlong { study, axis, labels })
+    }
+
+    /// The parameter.
+    pub fn along(&self) -> Coordinate {
+        self.axis.coordinate
+    }
+
+    /// The steps from each value of the parameter to the next, or the one between the values that are nearest to two.
+    pub fn steps(&self, between: Option<[f64; 2]>) -> Vec<Step> {
+        let values = &self.axis.values;
+        let nearest = |wanted: f64| {
+            let places = 0..values.len();
+            let off = |place: &usize| (values[*place] - wanted).abs();
+            places.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0)
+        };
+        match between {
+            Some(ends) => vec![ends.map(nearest)],
+            None => (1..values.len()).map(|at| [at - 1, at]).collect(),
+        }
+    }
+
+    /// What some steps do to each attractor, see [`run::tipping`].
+    ///
+    /// Fails if the threads cannot be started.
+    pub fn tipping(
+        &self,
+        steps: &[Step],
+        drawn: &Steps,
+        machine: Machine,
+    ) -> Result<Vec<Tipping>, CampaignError> {
+        let found = run::tipping(&self.study, &self.labels, steps, drawn, machine)?;
+        Ok(found.unwrap_or_default())
+    }
+}
