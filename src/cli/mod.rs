@@ -33,6 +33,8 @@ mod progress;
 mod readable;
 mod report;
 mod scheduler;
+mod sensitivity;
+mod sensitivity_text;
 mod simulate;
 mod simulation_text;
 mod smooth;
@@ -110,6 +112,8 @@ enum Command {
     Figure(Box<figure::Figure>),
     /// Find the fastest motions for the least energy in a file of results, or the most of one output for the least of another.
     Tradeoff(tradeoff::Tradeoff),
+    /// Find which of the quantities that are drawn the variance of outputs comes from: Sobol indices of a file of results.
+    Sensitivity(sensitivity::Sensitivity),
     /// Write what a file of results says as one page for a browser.
     Report(report::Report),
     /// Look at a file of results in the browser: click a cell of a map, see its motion.
@@ -158,6 +162,7 @@ pub fn run(commit: &'static str, words: impl IntoIterator<Item = OsString>) -> u
         Command::Continue(continuation) => continuation.run(),
         Command::Figure(figure) => figure.run(),
         Command::Tradeoff(tradeoff) => tradeoff.run(),
+        Command::Sensitivity(sensitivity) => sensitivity.run(),
         Command::Report(report) => report.run(),
         Command::Explore(explore) => explore.run(),
         Command::Inspect(inspect) => inspect.run(),
