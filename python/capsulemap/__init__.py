@@ -16,6 +16,7 @@ from ._progress import set_progress
 from ._results import names, open, tree
 from ._runs import attractors, basin, branch, orbit, simulate, sweep
 from ._saved import save
+from ._sensitivity import sensitivity
 from ._study import Study
 from ._systems import Capsule, Oscillator
 from ._tradeoff import TradeOff, tradeoff
@@ -53,6 +54,7 @@ __all__ = [
     "open",
     "orbit",
     "save",
+    "sensitivity",
     "set_progress",
     "set_threads",
     "simulate",
