@@ -83,6 +83,8 @@ fi
         best best-trade-off paper/best-trade-off.png
     kind trade-off-maps "The fastest motion of each cell over two axes, what it costs, and where the fronts lie." \
         best best-maps paper/best-maps.png
+    kind sensitivity "Sobol indices: which of the quantities that are drawn the variance of outputs comes from." \
+        sensitivity sensitivity sensitivity/sensitivity.png
     printf '## What can be set\n\nThe same options are keys of `[[figures]]` in a study; [studies/README.md](../studies/README.md) lists them.\n\n'
     setting "Limits, units, colours, contours and words" "Speeds beyond the limits have the colour of their end, and the bar says so by an arrow." \
         limits results/overview/overview.h5 --kind map --of progression_speed --x omega --y p_d \

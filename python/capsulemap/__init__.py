@@ -17,6 +17,7 @@ from ._progress import set_progress
 from ._results import names, open, tree
 from ._runs import attractors, basin, branch, orbit, simulate, sweep
 from ._saved import save
+from ._sensitivity import sensitivity
 from ._study import Study
 from ._systems import Capsule, Oscillator
 from ._tradeoff import TradeOff, tradeoff
@@ -56,6 +57,7 @@ __all__ = [
     "open",
     "orbit",
     "save",
+    "sensitivity",
     "set_progress",
     "set_threads",
     "simulate",

@@ -55,16 +55,19 @@ class Normal:
 class Draws:
     """Cases that are drawn from the ranges of the axes, in place of a grid.
 
-    ``kind`` is "uniform" (independent draws) or "low-discrepancy" (more evenly spread); another ``seed`` gives other draws.
+    ``kind`` is "uniform" (independent draws), "low-discrepancy" (more evenly spread) or "saltelli" (for ``sensitivity``, with
+    ``base_samples`` in place of ``count``: a power of two, each of which makes two cases and one for each axis); another ``seed`` gives
+    other draws.
     """
 
-    count: int
+    count: int | None = None
     seed: int = 0
     kind: str = "uniform"
+    base_samples: int | None = None
 
     def _pairs(self) -> dict[str, str]:
-        pairs = {"kind": self.kind, "count": self.count, "seed": self.seed}
-        return {key: _text.plain(f"draws.{key}", value) for key, value in pairs.items()}
+        pairs = {"kind": self.kind, "count": self.count, "base_samples": self.base_samples, "seed": self.seed}
+        return {key: _text.plain(f"draws.{key}", value) for key, value in pairs.items() if value is not None}
 
 
 def tables(axes: Mapping[str, object], units: Mapping[str, str | None], drawn: bool) -> str:

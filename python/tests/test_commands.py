@@ -20,7 +20,7 @@ from typing import Any
 
 import capsulemap
 import numpy
-from capsulemap import Axis, StudyError
+from capsulemap import Axis, Draws, StudyError
 
 from program import FIG5, SYSTEMS, TWO_MOTIONS, command_line, environment
 
@@ -70,6 +70,28 @@ class Basins(unittest.TestCase):
         for row in found["steps"][0]["attractors"]:
             # One motion is left, and all others fold.
             self.assertEqual(sum(it["count"] for it in row["orbit"]) + row["unknown"], 20)
+class Sensitivities(unittest.TestCase):
+    def test_the_answer_is_that_of_the_command_line(self) -> None:
+        draws = Draws(base_samples=8, kind="saltelli")
+        results = capsulemap.sweep(FIG5, {"omega": Axis(70, 80), "p_d": Axis(3, 4)}, draws=draws)
+        self.assertEqual(results.sizes["draw"], 32)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "results.h5")
+            capsulemap.save(results, path)
+            expected = told_by_command_line("sensitivity", str(path), "--resamples=50")
+            found = capsulemap.sensitivity(path, resamples=50)
+        power = expected["outputs"]["power"]
+        self.assertEqual(found["quantity"].values.tolist(), ["omega", "p_d"])
+        self.assertEqual(set(found.output.values.tolist()), set(expected["outputs"]))
+        of_power = found.sel(output="power")
+        self.assertEqual(float(of_power.ST.sel(quantity="p_d")), power["quantities"]["p_d"]["ST"])
+        self.assertEqual(float(of_power.S1_conf.sel(quantity="omega")), power["quantities"]["omega"]["S1_conf"])
+        self.assertEqual(float(of_power.variance), power["variance"])
+        some = capsulemap.sensitivity(results, ["power", "progression_speed"])
+        self.assertEqual(some.output.values.tolist(), ["power", "progression_speed"])
+        with self.assertRaises(StudyError) as raised:
+            capsulemap.sensitivity(results, "period")
+        self.assertEqual([fault.key for fault in raised.exception.faults], ["of"])
 
 
 class TradeOffs(unittest.TestCase):

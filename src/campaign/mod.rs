@@ -40,6 +40,8 @@ pub mod request;
 pub mod result_file;
 pub mod robustness;
 mod search_time;
+pub mod sensitivity;
+pub mod sobol_indices;
 pub mod share;
 mod sharing;
 mod sought;
@@ -75,7 +77,11 @@ pub use report::{Event, Report, Stage, Survey, silent};
 pub use request::{BranchesDone, Campaign, Complete, Done};
 pub use result_file::{block_path, output_path};
 pub use robustness::{Robustness, Tolerances};
+pub use sensitivity::{
+    NO_DESIGN, OutputSensitivity, Sensitivity, SensitivityAnswer, output_sensitivity,
+};
 pub use share::Task;
+pub use sobol_indices::{NoIndices, Resampling, SobolIndex, SobolIndices, sobol_indices};
 pub use status::{BlockStatus, Pace, Status};
 pub use study_source::{
     check_names, is_system_alone, read_study, read_study_or_results, read_system, study_of,

@@ -102,7 +102,7 @@ fn nearest(case: usize, large: &[usize], small: &[usize]) -> usize {
 fn part(study: &Study, number: usize, most: usize) -> Study {
     let mut part = Study { refine: None, ..study.clone() };
     match &mut part.case_set {
-        CaseSet::Draws(draws) => draws.count = draws.count.min(most),
+        CaseSet::Draws(draws) => draws.truncate(most),
         CaseSet::Grid(grid) => {
             let linked = linked_axis(study);
             let starts = grid.axes.iter().filter(|axis| axis.coordinate.is_start()).count();

@@ -37,6 +37,8 @@ mod ramp_summary;
 mod readable;
 mod report;
 mod scheduler;
+mod sensitivity;
+mod sensitivity_text;
 mod simulate;
 mod simulation_text;
 mod smooth;
@@ -117,6 +119,8 @@ enum Command {
     Tradeoff(tradeoff::Tradeoff),
     /// Find the attractors that orbits left behind by a step of the parameter lead to.
     Tipping(tipping::TippingOptions),
+    /// Find which of the quantities that are drawn the variance of outputs comes from: Sobol indices of a file of results.
+    Sensitivity(sensitivity::Sensitivity),
     /// Write what a file of results says as one page for a browser.
     Report(report::Report),
     /// Look at a file of results in the browser: click a cell of a map, see its motion.
@@ -166,6 +170,7 @@ pub fn run(commit: &'static str, words: impl IntoIterator<Item = OsString>) -> u
         Command::Figure(figure) => figure.run(),
         Command::Tradeoff(tradeoff) => tradeoff.run(),
         Command::Tipping(tipping) => tipping.run(),
+        Command::Sensitivity(sensitivity) => sensitivity.run(),
         Command::Report(report) => report.run(),
         Command::Explore(explore) => explore.run(),
         Command::Inspect(inspect) => inspect.run(),

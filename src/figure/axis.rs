@@ -4,7 +4,7 @@ use super::quantity::Quantity;
 use super::scale::{Scale, Spacing};
 use super::style::{LABEL_SIZE, LINE_HEIGHT, SMALL_SIZE};
 use super::text::Text;
-use super::ticks::{DIGITS, Ticks, linear_ticks, log_ticks, symmetric_ticks};
+use super::ticks::{DIGITS, Tick, Ticks, linear_ticks, log_ticks, symmetric_ticks};
 
 /// The direction an axis runs in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,13 +28,23 @@ pub struct AxisRequest {
     pub labelled: bool,
     /// Whether its marks carry numbers.
     pub numbered: bool,
+    /// What stands along it in place of numbers, as markup from 0 on; nothing where it has numbers.
+    pub words: Vec<String>,
 }
 
 impl AxisRequest {
     /// An axis with label and numbers, over this range unless another is set.
     pub fn new(quantity: Quantity, scale: Scale) -> AxisRequest {
         let scale = quantity.fitted(scale);
-        AxisRequest { quantity, scale, empty: false, labelled: true, numbered: true }
+        let words = Vec::new();
+        AxisRequest { quantity, scale, empty: false, labelled: true, numbered: true, words }
+    }
+
+    /// An axis without a label along which these words, as markup, stand at 0, 1 and so on, the first at its upper end.
+    pub fn of_words(words: Vec<String>) -> AxisRequest {
+        // Both ends are half a step beyond the outermost words.
+        let scale = Scale::over(words.len() as f64 - 0.5, -0.5);
+        AxisRequest { words, labelled: false, ..AxisRequest::new(Quantity::labelled(""), scale) }
     }
 
     /// An axis around `values`, without marks where none of them is finite.
@@ -70,6 +80,7 @@ impl Axis {
     pub fn new(request: &AxisRequest, along: Along, length: f64) -> Axis {
         let ticks = match request.empty {
             true => Ticks::default(),
+            false if !request.words.is_empty() => ticks_of_words(&request.words),
             false => choose(request, along, length),
         };
         let widest = ticks.major.iter().map(|tick| label_width(&tick.label)).fold(0.0, f64::max);
@@ -94,6 +105,13 @@ impl Axis {
     pub fn label_room(&self) -> f64 {
         self.label.len() as f64 * LINE_HEIGHT * LABEL_SIZE
     }
+}
+
+/// Marks with words, one after another.
+fn ticks_of_words(words: &[String]) -> Ticks {
+    let marks = words.iter().enumerate();
+    let marks = marks.map(|(place, words)| Tick { value: place as f64, label: words.clone() });
+    Ticks { major: marks.collect(), ..Ticks::default() }
 }
 
 /// A logarithmic axis that spans less has no two powers of ten.

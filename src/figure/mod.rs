@@ -55,6 +55,7 @@ mod requested;
 mod scale;
 mod section;
 mod section_points;
+mod sensitivity;
 mod settling;
 mod shares;
 mod shown;

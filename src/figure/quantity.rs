@@ -244,6 +244,16 @@ impl Quantity {
         if self.symbol.is_empty() { self.name.clone() } else { Text::markup(&self.symbol) }
     }
 
+    /// Its symbol with markup, or what it is called in files where there is none.
+    pub fn sign(&self) -> &str {
+        if self.symbol.is_empty() { &self.key } else { &self.symbol }
+    }
+
+    /// Its name alone, without symbol and unit.
+    pub fn name(&self) -> &Text {
+        &self.name
+    }
+
     /// The unit shown; empty where there is none.
     pub fn unit(&self) -> Text {
         Text::markup(&self.unit)

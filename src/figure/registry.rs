@@ -2,8 +2,8 @@
 
 use super::kind::Kind;
 use super::{
-    basin, bifurcation, curves, history, map, phase_portrait, section, settling, shares, spectrum,
-    trade_off, trade_off_maps,
+    basin, bifurcation, curves, history, map, phase_portrait, section, sensitivity, settling,
+    shares, spectrum, trade_off, trade_off_maps,
 };
 use crate::study::DrawingKind;
 
@@ -22,5 +22,6 @@ pub fn kind(name: DrawingKind) -> &'static Kind {
         DrawingKind::TradeOff => &trade_off::KIND,
         DrawingKind::TradeOffMaps => &trade_off_maps::KIND,
         DrawingKind::Curves => &curves::KIND,
+        DrawingKind::Sensitivity => &sensitivity::KIND,
     }
 }

@@ -45,6 +45,11 @@ impl Scale {
         Scale { spacing: Spacing::Linear, low: low - pad, high: high + pad }
     }
 
+    /// A linear range between two ends; values fall along the axis where the first is greater.
+    pub fn over(low: f64, high: f64) -> Scale {
+        Scale { spacing: Spacing::Linear, low, high }
+    }
+
     /// The scale of an axis' own `values`: logarithmic where they are spaced so.
     pub fn of_axis(values: &[f64]) -> Scale {
         let scale = Scale::around(values.iter().copied(), 0.0);

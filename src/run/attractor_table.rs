@@ -8,13 +8,13 @@ use super::settling::{Settling, SettlingTimes};
 use super::shock::shocks;
 use super::{Attractors, FinalMotions, Machine, Record, RunError, SharesAt, shares_along};
 use crate::attractor::{
-    Attractor, Entropy, Integrity, Share, Uncertainty, Wada, entropy, shares_of_draws,
+    Attractor, Entropy, Integrity, Label, Share, Uncertainty, Wada, entropy, shares_of_draws,
     shares_of_grid, uncertainty, wada,
 };
 use crate::description::Section;
 use crate::model::Setting;
 use crate::orbit::Outcome;
-use crate::study::{CaseSet, Study};
+use crate::study::{CaseSet, Draws, Study};
 
 /// An attractor that starts lead to.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +89,7 @@ pub fn attractor_table(
     }
     let label = |case: usize| attractors.label(case, final_motions);
     let shares = match &study.case_set {
-        CaseSet::Draws(draws) => shares_of_draws(draws.count, label, found.len()),
+        CaseSet::Draws(draws) => shares_among(draws, label, found.len()),
         CaseSet::Grid(_) => shares_of_grid(&study.shape(), label, found.len()),
     };
     let mut rows = rows(study, found, shares, machine)?;
@@ -112,6 +112,16 @@ pub fn attractor_table(
     let inferred = check_starts(study, attractors, final_motions, machine)?;
     let settling = None;
     Ok(AttractorTable { rows, along: None, entropy, uncertainty, wada, settling, edges, inferred })
+}
+
+/// The shares of so many attractors of draws. The cases of a row of a design have values in common, so that their shares have no
+/// error as independent draws have.
+fn shares_among(draws: &Draws, label: impl Fn(usize) -> Label, attractors: usize) -> Vec<Share> {
+    let mut shares = shares_of_draws(draws.count, label, attractors);
+    if draws.saltelli().is_some() {
+        shares.iter_mut().for_each(|it| (it.error, it.interval) = (f64::NAN, None));
+    }
+    shares
 }
 
 /// The rows of the attractors that are `found`, each with its share, but for what a grid of starts tells of their basins.

@@ -36,7 +36,7 @@ pub fn candidates(
     let mut found = Candidates { all: Vec::new(), left_out: BTreeMap::new() };
     for case in 0..table.cases() {
         let (gain, price) = (gains.values[case], prices.values[case]);
-        let reason = match name(&outcomes, case) {
+        let reason = match outcome_name(&outcomes, case) {
             name if !takes_part(name) => Some(name),
             _ if !(gain.is_finite() && price.is_finite()) => Some("without values"),
             _ if !fulfils(conditions, case) => Some("excluded by conditions"),
@@ -61,10 +61,10 @@ pub fn takes_part(outcome: &str) -> bool {
         .any(|it| it.name() == outcome)
 }
 
-/// The name of the category of a case.
-fn name(column: &Column, case: usize) -> &str {
-    let code = column.values[case];
-    let named = column.flags.iter().find(|(known, _)| *known as f64 == code);
+/// The name of the outcome of a case, by the column of outcomes.
+pub fn outcome_name(outcomes: &Column, case: usize) -> &str {
+    let code = outcomes.values[case];
+    let named = outcomes.flags.iter().find(|(known, _)| *known as f64 == code);
     named.map_or("without outcome", |(_, name)| name)
 }
 

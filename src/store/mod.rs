@@ -58,13 +58,14 @@ pub use block_content::{block_image, packed_bytes};
 pub use block_file::{Summary, Unusable, Written};
 pub use block_folder::{BlockFolder, Company, by_outcome};
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
-pub use candidates::{Candidates, candidates, takes_part};
+pub use candidates::{Candidates, candidates, outcome_name, takes_part};
 pub use case_table::{CaseTable, Column};
 pub use claim::{Claim, HeldClaim, Owner};
 pub use constraint::{Comparison, Condition, conditions, fulfils, quantity};
 pub use dataset::{Dataset, Values, Variable};
 pub use decode::Archive;
 pub use difference::difference;
+pub use drawn::Design;
 pub use element::Element;
 pub use error::{StoreError, Unread};
 pub use file::{

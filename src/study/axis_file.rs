@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use super::axis::Spacing;
 use super::document::{Entry, Table};
 use super::draws::{DrawKind, Range};
-use super::{Axis, CaseSet, Coordinate, Draws, Grid, Normal};
+use super::sobol_points::MOST_DIMENSIONS;
+use super::{Axis, CaseSet, Coordinate, Draws, Grid, Normal, Saltelli};
 use crate::quantity::Allowed;
 
 /// More values on an axis, and more draws, than this are taken for a slip of the pen.
@@ -16,11 +17,11 @@ const LEAST_PROBABILITY: f64 = 1e-9;
 
 /// Reads `[[axes]]` and `[draws]`.
 pub(super) fn read_case_set(top: &Table<'_, '_>) -> CaseSet {
-    let draws = top.table("draws").map(read_draws);
+    let entries = top.entry("axes").map(|entry| entry.list()).unwrap_or_default();
+    let draws = top.table("draws").map(|table| read_draws(table, entries.len()));
     let is_drawn = draws.is_some();
     let mut seen = Vec::new();
     let (mut axes, mut ranges) = (Vec::new(), Vec::new());
-    let entries = top.entry("axes").map(|entry| entry.list()).unwrap_or_default();
     if is_drawn && entries.is_empty() {
         top.missing("axes", "ranges to draw from, as `[[axes]]` with name, from and to");
     }
@@ -48,22 +49,61 @@ pub(super) fn read_case_set(top: &Table<'_, '_>) -> CaseSet {
     }
 }
 
-/// Reads `[draws]`, which has no ranges.
-fn read_draws(table: Table<'_, '_>) -> Draws {
+/// Reads `[draws]`, which has no ranges, of so many quantities.
+fn read_draws(table: Table<'_, '_>, quantities: usize) -> Draws {
     let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", &DrawKind::NAMES));
-    let count = table.entry("count");
-    if count.is_none() {
-        table.missing("count", "the number of draws");
-    }
-    let count = count.and_then(|entry| entry.whole(1, MOST_VALUES)).unwrap_or(1);
+    let kind = kind.unwrap_or_default();
+    let count = match kind {
+        DrawKind::Saltelli => read_base_samples(&table, quantities).map(|rows| {
+            let row = Saltelli { quantities }.row_length();
+            rows as usize * row
+        }),
+        DrawKind::Uniform | DrawKind::LowDiscrepancy => read_count(&table),
+    };
     let seed = table.entry("seed").and_then(|entry| entry.whole(0, i64::MAX as u64));
     table.finish();
-    Draws {
-        kind: kind.unwrap_or_default(),
-        count: count as usize,
-        seed: seed.unwrap_or(0),
-        ranges: Vec::new(),
+    Draws { kind, count: count.unwrap_or(1), seed: seed.unwrap_or(0), ranges: Vec::new() }
+}
+
+/// The number of draws.
+fn read_count(table: &Table<'_, '_>) -> Option<usize> {
+    if let Some(extra) = table.entry("base_samples") {
+        extra.fault("goes with `kind = \"saltelli\"` alone; give the number of draws as `count`");
     }
+    let Some(count) = table.entry("count") else {
+        table.missing("count", "the number of draws");
+        return None;
+    };
+    count.whole(1, MOST_VALUES).map(|count| count as usize)
+}
+
+/// The number of rows of a design over so many quantities.
+fn read_base_samples(table: &Table<'_, '_>, quantities: usize) -> Option<u64> {
+    let row = Saltelli { quantities }.row_length() as u64;
+    if let Some(extra) = table.entry("count") {
+        extra.fault(format!(
+            "does not go with `kind = \"saltelli\"`; give `base_samples`, each of which makes {row} cases here: two and one for each axis"
+        ));
+    }
+    if 2 * quantities > MOST_DIMENSIONS
+        && let Some(kind) = table.entry("kind")
+    {
+        kind.fault(format!("{quantities} axes; {} are the most of a design", MOST_DIMENSIONS / 2));
+    }
+    let Some(entry) = table.entry("base_samples") else {
+        table.missing("base_samples", "the number of base samples, a power of two");
+        return None;
+    };
+    let rows = entry.whole(2, MOST_VALUES / row)?;
+    if !rows.is_power_of_two() {
+        let above = rows.next_power_of_two();
+        entry.fault(format!(
+            "{rows} is no power of two, with which Sobol' points are even; the next are {} and {above}",
+            above / 2
+        ));
+        return None;
+    }
+    Some(rows)
 }
 
 /// What varies along an axis.

@@ -102,13 +102,14 @@ impl CaseSet {
         }
     }
 
-    /// Leaves out all but the first few values of each dimension, and the last of an axis, so that it keeps its range.
+    /// Leaves out all but the first few values of each dimension, and the last of an axis, so that it keeps its range; rows of a design
+    /// stay whole.
     pub fn truncate(&mut self, most: usize) {
         match self {
             CaseSet::Grid(grid) => {
                 grid.axes.iter_mut().for_each(|axis| shorten(&mut axis.values, most));
             }
-            CaseSet::Draws(draws) => draws.count = draws.count.min(most),
+            CaseSet::Draws(draws) => draws.truncate(most),
         }
     }
 }

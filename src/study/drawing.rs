@@ -137,6 +137,8 @@ kinds! {
     TradeOffMaps "trade-off-maps" Keys { outputs: true, most: 2, between: true, marks: &["fronts", "optima"], ..AXES };
     /// Special points of branches as curves in two parameters.
     Curves "curves" Keys { continued: true, marks: &["special-points"], ..AXES };
+    /// Sobol indices of outputs by the quantities that are drawn, with their intervals.
+    Sensitivity "sensitivity" Keys { outputs: true, most: ANY, ..AXES };
 }
 
 impl DrawingKind {

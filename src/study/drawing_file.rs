@@ -31,6 +31,9 @@ pub(super) fn read_drawings(
         if let (CaseSet::Draws(_), Some(kind)) = (case_set, table.entry("kind")) {
             refuse_without_grid(&kind, drawing.kind);
         }
+        if let (DrawingKind::Sensitivity, Some(kind)) = (drawing.kind, table.entry("kind")) {
+            refuse_without_design(&kind, case_set);
+        }
         if let (Some(Refine::Outputs(_)), Some(kind)) = (refine, table.entry("kind"))
             && !matches!(drawing.kind, DrawingKind::Map | DrawingKind::Curves)
         {
@@ -59,6 +62,14 @@ fn refuse_without_grid(entry: &Entry<'_, '_>, kind: DrawingKind) {
             "a figure of the kind {} needs a grid, and `[draws]` makes none; a trade-off shows draws",
             kind.name()
         ));
+    }
+}
+
+/// Refuses a figure of Sobol indices of cases from which they cannot be estimated.
+fn refuse_without_design(entry: &Entry<'_, '_>, case_set: &CaseSet) {
+    let is_design = matches!(case_set, CaseSet::Draws(draws) if draws.saltelli().is_some());
+    if !is_design {
+        entry.fault("a figure of the kind sensitivity needs `[draws]` with `kind = \"saltelli\"`");
     }
 }
 

@@ -3,7 +3,8 @@
 use std::fmt::{self, Debug, Formatter};
 
 use super::axis::Spacing;
-use super::{Coordinate, Normal};
+use super::sobol_points::sobol;
+use super::{Coordinate, Normal, Saltelli};
 
 /// How points are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -13,12 +14,17 @@ pub enum DrawKind {
     Uniform,
     /// More evenly spread over the ranges than independent points are.
     LowDiscrepancy,
+    /// Rows of cases from which Sobol indices are estimated, see [`Saltelli`].
+    Saltelli,
 }
 
 impl DrawKind {
     /// Each kind by its name in studies and files.
-    pub const NAMES: [(&str, DrawKind); 2] =
-        [("uniform", DrawKind::Uniform), ("low-discrepancy", DrawKind::LowDiscrepancy)];
+    pub const NAMES: [(&str, DrawKind); 3] = [
+        ("uniform", DrawKind::Uniform),
+        ("low-discrepancy", DrawKind::LowDiscrepancy),
+        ("saltelli", DrawKind::Saltelli),
+    ];
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -80,7 +86,7 @@ impl Debug for Range {
 pub struct Draws {
     /// How they are drawn.
     pub kind: DrawKind,
-    /// Number of points.
+    /// Number of points, each of which is a case.
     pub count: usize,
     /// Tells sets of points apart that are drawn alike.
     pub seed: u64,
@@ -97,6 +103,22 @@ const STEPS: usize = 32;
 impl Draws {
     /// The dimension of the results.
     pub const DIMENSION: &str = "draw";
+
+    /// The design that the draws are, if they are one.
+    pub fn saltelli(&self) -> Option<Saltelli> {
+        let is_one = self.kind == DrawKind::Saltelli;
+        is_one.then_some(Saltelli { quantities: self.ranges.len() })
+    }
+
+    /// Draws that belong together: those of a row of a design.
+    pub fn row_length(&self) -> usize {
+        self.saltelli().map_or(1, Saltelli::row_length)
+    }
+
+    /// Leaves out all but so many of the first draws, or those of whole rows of a design.
+    pub fn truncate(&mut self, most: usize) {
+        self.count = self.count.min(most.next_multiple_of(self.row_length()));
+    }
 
     /// Value of range number `place` in draw `index`.
     pub fn value(&self, index: usize, place: usize) -> f64 {
@@ -116,13 +138,15 @@ impl Draws {
     /// Every range has a number s of its own, output `place` of SplitMix64 from the seed. Uniform: output `index`
     /// of SplitMix64 from s. Low discrepancy: the fraction of s / 2^64 + (index + 1) a^(-place - 1), the
     /// additive recurrence R_d over d ranges, where a is the root above one of x^(d + 1) = x + 1; in integers
-    /// modulo 2^64, so that no digit is lost at large indices.
+    /// modulo 2^64, so that no digit is lost at large indices. Saltelli: the coordinate of a Sobol' point that [`Saltelli::source`]
+    /// tells, with the bits of the number s of that coordinate by exclusive or: a digital shift, which keeps the points as even as they are.
     ///
     /// # Source
     ///
     /// G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators, OOPSLA 2014, with
     /// the constants of S. Vigna's splitmix64.c. M. Roberts, The unreasonable effectiveness of quasirandom
-    /// sequences, 2018. The shift by s: R. Cranley, T. N. L. Patterson, SIAM J. Numer. Anal. 13, 1976.
+    /// sequences, 2018. The shift by s: R. Cranley, T. N. L. Patterson, SIAM J. Numer. Anal. 13, 1976; in digits: P. L'Ecuyer,
+    /// C. Lemieux, Recent advances in randomized quasi-Monte Carlo methods, 2002.
     ///
     /// # Guarantees
     ///
@@ -139,6 +163,10 @@ impl Draws {
             DrawKind::LowDiscrepancy => {
                 let step = recurrence_step(self.ranges.len(), place);
                 own.wrapping_add(step.wrapping_mul(index as u64 + 1))
+            }
+            DrawKind::Saltelli => {
+                let [row, column] = Saltelli { quantities: self.ranges.len() }.source(index, place);
+                sobol(row as u64, column) ^ splitmix(self.seed, column as u64)
             }
         };
         (bits >> 11) as f64 / (1_u64 << 53) as f64

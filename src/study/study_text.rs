@@ -235,7 +235,10 @@ fn are_same(some: &[f64], others: &[f64]) -> bool {
 fn write_draws(document: &mut Document, draws: &Draws) {
     document.table("draws");
     document.put("kind", text(draws.kind.name()));
-    document.put("count", draws.count);
+    match draws.saltelli() {
+        Some(design) => document.put("base_samples", draws.count / design.row_length()),
+        None => document.put("count", draws.count),
+    }
     document.put("seed", draws.seed);
     for Range { coordinate, from, to, spacing, normal } in &draws.ranges {
         let dimension = coordinate.dimension();

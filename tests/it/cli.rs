@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::program::{FIG5, Ran, WorkDir};
 
-const COMMANDS: [&str; 11] = [
+const COMMANDS: [&str; 12] = [
     "simulate",
     "sweep",
     "join",
@@ -17,6 +17,7 @@ const COMMANDS: [&str; 11] = [
     "continue",
     "figure",
     "tradeoff",
+    "sensitivity",
     "report",
     "inspect",
     "completions",

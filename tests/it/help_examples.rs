@@ -1,8 +1,9 @@
-//! The examples in the help of the commands of experiments run on a synthesised rig.
+//! The examples in the help of the commands of experiments run on a synthesised rig, those of others on a small study.
 
 use std::fs;
 
 use super::program::{FIG5, TWO_MOTIONS, WorkDir};
+use super::sobol_indices::ABOUT_FIG5;
 use super::text_recordings::put_wall;
 
 /// A folder in which examples run: studies, a rig, and the files that examples name.
@@ -18,6 +19,10 @@ fn folder() -> WorkDir {
         work.put(name, text);
     }
     put_wall(&work);
+    work.put("sensitivity.toml", ABOUT_FIG5.replace("base_samples = 64", "base_samples = 4"));
+    work.run(&["sweep", "sensitivity.toml", "--no-figures"]).done();
+    fs::copy(work.path("results/sensitivity/sensitivity.h5"), work.path("FILE.h5"))
+        .expect("copied");
     work.run(&["synthesize", "a.toml", "--output", "other"]).done();
     for (from, to) in [
         ("other/motion.csv", "a.csv"),
@@ -70,7 +75,7 @@ fn examples(help: &str) -> Vec<String> {
 fn every_example_of_the_help_runs() {
     let work = folder();
     let mut count = 0;
-    for command in ["synthesize", "identify", "compare", "fit"] {
+    for command in ["synthesize", "identify", "compare", "fit", "sensitivity"] {
         // Each command has the rig as the examples of synthesize leave it first.
         let _ = fs::remove_dir_all(work.path("rig"));
         if command != "synthesize" {

@@ -97,6 +97,7 @@ mod schedulers;
 mod sizes;
 mod slurm;
 mod smoothed_records;
+mod sobol_indices;
 mod store;
 mod study;
 mod text_recordings;

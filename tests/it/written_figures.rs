@@ -19,7 +19,12 @@ impl Random {
             matches!(kind, DrawingKind::Map | DrawingKind::Bifurcation | DrawingKind::TradeOffMaps)
         };
         let kinds = DrawingKind::NAMES.iter().map(|(_, kind)| *kind).collect::<Vec<_>>();
-        let kinds: Vec<_> = kinds.into_iter().filter(|kind| is_grid || !needs_grid(kind)).collect();
+        let is_design = matches!(&study.case_set, CaseSet::Draws(it) if it.saltelli().is_some());
+        let kinds: Vec<_> = kinds
+            .into_iter()
+            .filter(|kind| is_grid || !needs_grid(kind))
+            .filter(|kind| is_design || *kind != DrawingKind::Sensitivity)
+            .collect();
         let kind = self.one(&kinds);
         let mut names: Vec<&str> = study.axes().iter().map(|axis| axis.coordinate.name()).collect();
         let coordinates: Vec<Coordinate> =

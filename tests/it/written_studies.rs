@@ -64,13 +64,13 @@ impl Random {
         let all = coordinates.clone();
         coordinates.retain(|it| !all.iter().any(|other| replaced(*other) == Some(*it)));
         if self.below(3) == 0 && !coordinates.is_empty() {
-            let ranges = coordinates.into_iter().map(|it| self.range(it)).collect();
-            return CaseSet::Draws(Draws {
-                kind: self.one(&[DrawKind::Uniform, DrawKind::LowDiscrepancy]),
-                count: 1 + self.below(10_000),
-                seed: self.bits() >> 1,
-                ranges,
-            });
+            let ranges: Vec<Range> = coordinates.into_iter().map(|it| self.range(it)).collect();
+            let kind = self.one(&DrawKind::NAMES).1;
+            let count = match kind {
+                DrawKind::Saltelli => (ranges.len() + 2) << (1 + self.below(12)),
+                DrawKind::Uniform | DrawKind::LowDiscrepancy => 1 + self.below(10_000),
+            };
+            return CaseSet::Draws(Draws { kind, count, seed: self.bits() >> 1, ranges });
         }
         let axes: Vec<Axis> = coordinates.into_iter().map(|it| self.axis(it)).collect();
         let parameter = |axis: &usize| matches!(axes[*axis].coordinate, Coordinate::Parameter(_));

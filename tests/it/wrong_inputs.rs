@@ -89,7 +89,7 @@ const STUDIES: &[(&str, &[&str])] = &[
     ("@~[[figures]]\nname = \"a\"\nkind = \"bifurcation\"\nlimits = { omega = [\"0 rad/s\", \"9 rad/s\"] }\nscale = { omega = \"log\" }\n", &["line 14: figures[1].scale.omega: a logarithmic scale needs limits above zero"]),
     ("@~[[figures]]\nname = \"a\"\nkind = \"bifurcation\"\ndpi = 5\n", &["line 13: figures[1].dpi: 5 is not within 50 to 2400"]),
     ("@~[[figures]]\nname = \"a\"\nkind = \"bifurcation\"\nheight = \"1 km\"\n", &["line 13: figures[1].height: \"1 km\" has the unknown unit \"km\"; expected a length in m, mm"]),
-    ("[draws]\nkind = \"sobol\"\ncount = 0\n@", &["line 2: draws.kind: unknown kind \"sobol\" (allowed: uniform, low-discrepancy)", "line 3: draws.count: expected a whole number, 1 to 10000000, found 0"]),
+    ("[draws]\nkind = \"sobol\"\ncount = 0\n@", &["line 2: draws.kind: unknown kind \"sobol\" (allowed: uniform, low-discrepancy, saltelli)", "line 3: draws.count: expected a whole number, 1 to 10000000, found 0"]),
     ("[draws]\ncount = 5\n@", &["axes: missing; expected ranges to draw from, as `[[axes]]` with name, from and to"]),
 ];
 

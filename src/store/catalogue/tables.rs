@@ -24,7 +24,7 @@ entries! {
         shown("Share of the starts", "", "%", 100.0),
         "share of the cases that lead to the attractor, among all that have been computed or inferred";
     ATTRACTOR_SHARE_ERROR "attractor_share_error" "1" Table(ATTRACTOR_INDEX.name), Real, None,
-        "standard error of the share: of a grid by the cells beside the boundary, not a number where starts are missing; of draws that of a binomial";
+        "standard error of the share: of a grid by the cells beside the boundary, not a number where starts are missing; of draws that of a binomial, not a number of a design";
     ATTRACTOR_SHARE_LOW "attractor_share_low" "1" Table(ATTRACTOR_INDEX.name), Real, None,
         "lower end of Wilson's interval of the share at 95 percent";
     ATTRACTOR_SHARE_HIGH "attractor_share_high" "1" Table(ATTRACTOR_INDEX.name), Real, None,
