@@ -19,6 +19,7 @@ pub mod include;
 pub(crate) mod layout;
 mod named_model;
 pub mod named_system;
+pub mod own_outputs;
 mod parameter_table;
 mod refine_file;
 pub mod refinement;
