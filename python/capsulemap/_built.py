@@ -14,6 +14,10 @@ from ._study import NAME
 from ._systems import _Parametric
 from ._text import Quantity
 
+Outputs = str | Sequence[str] | Mapping[str, Any] | None
+"""Names of the outputs to keep, or what a study has in its table ``outputs``: a list ``keep``, and ``own`` outputs by name with their
+expressions, as ``{"own": {"speed_per_power": "progression_speed/power"}}``."""
+
 START_ALONE = ("phase",)
 """Keys of a start that are no coordinates of their own."""
 
@@ -24,7 +28,7 @@ class Built:
 
     system: _Parametric
     axes: Mapping[str, object] = field(default_factory=dict)
-    outputs: str | Sequence[str] | None = None
+    outputs: Outputs = None
     start: Mapping[str, Quantity] | None = None
     inherit: str | None = None
     directions: str | Sequence[str] | None = None
@@ -90,7 +94,8 @@ class Built:
         title = f"title = {_text.quoted(self.title)}\n" if self.title else ""
         if self.outputs is None:
             return title
-        return title + f"outputs = {_text.plain('outputs', _text.listed(self.outputs))}\n"
+        outputs = self.outputs if isinstance(self.outputs, Mapping) else _text.listed(self.outputs)
+        return title + f"outputs = {_text.plain('outputs', outputs)}\n"
 
     def _start(self, units: Mapping[str, str | None]) -> dict[str, str]:
         pairs = start_pairs("start", self.start or {}, units)

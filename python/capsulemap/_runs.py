@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 from . import _results, _study, _text
 from ._axis import Draws
-from ._built import Built
+from ._built import Built, Outputs
 from ._job import Job
 from ._orbit import Orbit, orbit_of
 from ._study import Keep, Kept
@@ -79,7 +79,7 @@ def sweep(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: str | Sequence[str] | None = None,
+    outputs: Outputs = None,
     start: Start | None = None,
     inherit: str | None = None,
     directions: str | Sequence[str] | None = None,
@@ -99,7 +99,7 @@ def sweep(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: str | Sequence[str] | None = None,
+    outputs: Outputs = None,
     start: Start | None = None,
     inherit: str | None = None,
     directions: str | Sequence[str] | None = None,
@@ -118,7 +118,7 @@ def sweep(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: str | Sequence[str] | None = None,
+    outputs: Outputs = None,
     start: Start | None = None,
     inherit: str | None = None,
     directions: str | Sequence[str] | None = None,
@@ -135,7 +135,7 @@ def sweep(
 
     ``axes`` maps parameters ("omega") and coordinates of the start ("start_r", "start_phase") to their values, slowest first: an
     array or list of numbers in SI units or texts with units, or an Axis. ``outputs`` are names of ``system.names["outputs"]``, all of
-    them unless given. With ``draws`` each axis is an Axis or a pair, the range.
+    them unless given; ``{"own": {"speed_per_power": "progression_speed/power"}}`` defines one by an expression. With ``draws`` each axis is an Axis or a pair, the range.
     With ``inherit`` each case starts where its neighbour along that axis has settled, in each of the ``directions`` ("upward",
     "downward"). ``refine`` maps outputs to the most by which neighbours may differ: cases are computed only where they do.
     ``protocol`` and ``history`` have the keys of these tables of a study file. ``keep`` and ``overwrite`` are as those of ``Study.run``.
@@ -165,7 +165,7 @@ def basin(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: str | Sequence[str] | None = None,
+    outputs: Outputs = None,
     start: Start | None = None,
     draws: Draws | int | None = None,
     refine: bool = False,
@@ -183,7 +183,7 @@ def basin(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: str | Sequence[str] | None = None,
+    outputs: Outputs = None,
     start: Start | None = None,
     draws: Draws | int | None = None,
     refine: bool = False,
@@ -200,7 +200,7 @@ def basin(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: str | Sequence[str] | None = None,
+    outputs: Outputs = None,
     start: Start | None = None,
     draws: Draws | int | None = None,
     refine: bool = False,
@@ -238,7 +238,7 @@ def attractors(
     system: _Parametric,
     axes: Mapping[str, object],
     *,
-    outputs: str | Sequence[str] | None = None,
+    outputs: Outputs = None,
     start: Start | None = None,
     draws: Draws | int | None = None,
     protocol: Mapping[str, object] | None = None,
@@ -264,7 +264,7 @@ def branch(
     second: tuple[str, Quantity, Quantity] | None = None,
     longest_step: float = 0.02,
     most_points: int = 2000,
-    outputs: str | Sequence[str] | None = None,
+    outputs: Outputs = None,
     protocol: Mapping[str, object] | None = None,
     title: str = "",
 ) -> xarray.Dataset:

@@ -45,6 +45,15 @@ class Results(BesideTheCommandLine):
         self.assertEqual(dataset.attrs["title"], "µ and \"quotes\"")
         self.assert_same_as_file(dataset)
 
+    def test_outputs_of_its_own(self) -> None:
+        own = {"speed_per_power": "progression_speed/power"}
+        outputs = {"keep": ["progression_speed", "power", "speed_per_power"], "own": own}
+        dataset = capsulemap.sweep(FIG5, {"omega": [70, 75]}, outputs=outputs)
+        numpy.testing.assert_array_equal(dataset.speed_per_power, dataset.progression_speed / dataset.power)
+        self.assertEqual(dataset.speed_per_power.attrs["units"], "m/J")
+        self.assertEqual(dataset.speed_per_power.attrs["long_name"], own["speed_per_power"])
+        self.assert_same_as_file(dataset)
+
     @unittest.skipUnless(hasattr(xarray, "DataTree"), "this xarray has no trees")
     def test_a_tree_has_all_of_a_dataset(self) -> None:
         system, axes = TWO_MOTIONS.replace(omega=155), {"start_r": Axis("-4 mm", "4 mm", 6)}

@@ -169,7 +169,7 @@ pub fn command(case: &Case, protocol: &Protocol, file: &str) -> String {
     let mut text = "capsulemap simulate".to_owned();
     if parameters.model().equations.is_some() {
         text += &format!(" --system {}", quoted(file));
-    } else if parameters.model() != default_model() {
+    } else if parameters.model().without_own() != default_model() {
         text += &format!(" --model {}", parameters.model().name);
     }
     for (parameter, value) in parameters.stated() {

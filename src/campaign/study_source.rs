@@ -7,7 +7,7 @@ use crate::description::Description;
 use crate::quantity::printable::printable;
 use crate::store::catalogue::{STUDY_TEXT, taken_twice};
 use crate::store::{self, Archive, Pipes};
-use crate::study::{Fault, Faults, Study, include, named_system};
+use crate::study::{Fault, Faults, Study, include, named_system, own_outputs};
 
 /// The first bytes of an HDF5 file.
 const HDF5: &[u8] = b"\x89HDF";
@@ -39,17 +39,21 @@ fn with_values(name: &str, own: &str, file: &str, path: &Path) -> Result<Study, 
     Ok(Study::parse(name, &whole.text).map_err(|faults| whole.as_written(faults))?)
 }
 
-/// Makes sure that a system has no name for something which results have for something else.
+/// Makes sure that a system, or a study for its own outputs, has no name for something which results have for something else.
 ///
 /// Fails with every such name.
 pub fn check_names(name: &str, model: &'static Description) -> Result<(), CampaignError> {
-    let taken = model.equations.map(|_| taken_twice(model)).into_iter().flatten();
-    let faults = taken.map(|taken| Fault {
-        line: None,
-        key: named_system::KEY.to_owned(),
-        message: format!(
-            "results would have two things called `{taken}`; call the state, parameter or output otherwise"
-        ),
+    let is_text = model.equations.is_some() || model.own.is_some();
+    let taken = is_text.then(|| taken_twice(model)).into_iter().flatten();
+    let of_text = taken_twice(model.without_own());
+    let faults = taken.map(|taken| {
+        let (key, what) = match of_text.contains(taken) {
+            true => (named_system::KEY, "state, parameter or output"),
+            false => (own_outputs::KEY, "own output"),
+        };
+        let message =
+            format!("results would have two things called `{taken}`; call the {what} otherwise");
+        Fault { line: None, key: key.to_owned(), message }
     });
     let faults: Vec<Fault> = faults.collect();
     match faults.is_empty() {

@@ -24,7 +24,7 @@ pub fn asked_case(path: &Path, index: usize, takes: Takes) -> Result<(Case, Prot
     let study = read_study_or_results(path)?;
     let model = study.base.model();
     let is_text = model.equations.is_some();
-    if *model != CAPSULE && !(is_text && takes == Takes::CapsuleAndTexts) {
+    if *model.without_own() != CAPSULE && !(is_text && takes == Takes::CapsuleAndTexts) {
         return Err(refused(path, model, takes));
     }
     let replay = Replay::new(&study, index).map_err(|error| match error {

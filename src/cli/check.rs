@@ -64,6 +64,9 @@ fn of_study(study: &Study) -> String {
     let _ = writeln!(text, "{:<12}{cases} ({})", "asks for", shape.join(" x "));
     let outputs: Vec<&str> = study.outputs.iter().map(|it| it.name()).collect();
     line(&mut text, "outputs", &outputs.join(", "));
+    for it in study.base.model().own_outputs() {
+        line(&mut text, "own output", &format!("{} [{}]: {}", it.name(), it.unit(), it.meaning()));
+    }
     let parameters = study.with_parts();
     if let Some(member) = (parameters.model().rules.member)(&parameters) {
         line(&mut text, "member", &member);

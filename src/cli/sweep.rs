@@ -32,7 +32,7 @@ Examples:
   capsulemap sweep STUDY.toml --output /data/NAME.h5 --threads 8
   capsulemap sweep STUDY.toml --task 3/8   # the third of 8 machines
   capsulemap join STUDY.toml               # once all 8 are done
-  capsulemap sweep STUDY.toml --claim      # on any number of machines that share the folder
+  capsulemap sweep STUDY.toml --claim      # on any number of machines
 
 A run that was interrupted is resumed by the same command. Without --task, an element of an array of Slurm, Grid Engine, LSF or AWS \
 Batch takes its part by itself. PBS, Torque and indexed jobs of Kubernetes do not say how many elements there are: \

@@ -21,7 +21,7 @@ pub fn case_json(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit
         "failure": failure_json(simulation),
         "orbit": orbit_json(parameters, orbit),
     });
-    if model != default_model() {
+    if model.without_own() != default_model() {
         object["model"] = json!(model.name);
     }
     object

@@ -188,7 +188,7 @@ impl Report<'_> {
         page.part("To cite it");
         page.text(&format!("{}.", provenance::program(&frame.attributes)));
         let model = self.study.base.model();
-        if model == default_model() || model.extends == Some(default_model()) {
+        if model.is_or_extends(default_model()) {
             page.text(PAPER);
         }
     }

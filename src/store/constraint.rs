@@ -1,7 +1,9 @@
 //! Conditions on the numbers of cases, as a person writes them: `peak_contact_force < 30 N and outcome = periodic`.
 
 use super::case_table::{CaseTable, Column};
+use super::catalogue::lasting;
 use super::{StoreError, Unread};
+use crate::quantity::units::dimension_of;
 use crate::quantity::{Dimension, parse_quantity};
 use crate::study::document::unknown;
 
@@ -148,8 +150,7 @@ pub fn quantity(text: &str, unit: &str) -> Result<f64, String> {
     if let Ok(value) = text.trim().parse::<f64>() {
         return Ok(value);
     }
-    let dimension = Dimension::ALL.into_iter().find(|dimension| dimension.unit() == unit);
-    parse_quantity(text, dimension.unwrap_or(Dimension::Number))
+    parse_quantity(text, dimension_of(lasting(unit.to_owned())))
 }
 
 impl From<StoreError> for Unread {

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use ndarray::{ArrayD, IxDyn};
 
-use super::catalogue::{Entry, Flags, SYSTEM_TEXT};
+use super::catalogue::{Entry, Flags, OWN_TEXT, SYSTEM_TEXT};
 use super::names::MODEL;
 use crate::description::Description;
 use crate::of::{default_model, model_called};
-use crate::study::named_system;
+use crate::study::{named_system, own_outputs};
 
 /// The numbers of a variable.
 #[derive(Debug, Clone, PartialEq)]
@@ -152,7 +152,8 @@ impl Dataset {
     pub fn model(&self) -> &'static Description {
         let as_text = self.texts.get(SYSTEM_TEXT).and_then(|tables| named_system::known(tables));
         let named = || self.attributes.get(MODEL).and_then(|name| model_called(name));
-        as_text.or_else(named).unwrap_or_else(default_model)
+        let model = as_text.or_else(named).unwrap_or_else(default_model);
+        self.texts.get(OWN_TEXT).map_or(model, |table| own_outputs::known(model, table))
     }
 
     /// The coordinate called `name`.

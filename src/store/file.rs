@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use tempfile::NamedTempFile;
 
-use super::catalogue::SYSTEM_TEXT;
+use super::catalogue::{OWN_TEXT, SYSTEM_TEXT};
 use super::checksum::{self, Checksum};
 use super::decode::Archive;
 use super::faults::faults;
@@ -19,7 +19,7 @@ use super::plain::{NO_TEXT, place};
 use super::watched::Watched;
 use super::{Dataset, StoreError, difference, encode};
 use crate::of::model_called;
-use crate::study::named_system;
+use crate::study::{named_system, own_outputs};
 
 /// How often a folder is tried that another run holds, and the time between two tries: ten minutes in all.
 const HOLD_TRIES: u32 = 3000;
@@ -139,19 +139,24 @@ pub fn open_changed(path: &Path) -> Result<(Archive, bool), StoreError> {
 fn decoded(path: &Path, checked: Watched) -> Result<Archive, StoreError> {
     let archive = Archive::decode(path, checked)?;
     let frame = archive.frame();
+    match check_model(frame) {
+        Ok(()) => Ok(archive),
+        Err(why) => Err(StoreError::Foreign { path: path.to_owned(), why }),
+    }
+}
+
+/// Makes sure that the model of results is known, with the outputs that their study defines; fails with why it is not.
+fn check_model(frame: &Dataset) -> Result<(), String> {
     if let Some(tables) = frame.texts.get(SYSTEM_TEXT) {
-        return match named_system::model_of(SYSTEM_TEXT, tables) {
-            Ok(_) => Ok(archive),
-            Err(why) => Err(StoreError::Foreign { path: path.to_owned(), why: why.to_string() }),
-        };
+        named_system::model_of(SYSTEM_TEXT, tables).map_err(|why| why.to_string())?;
+    } else if let Some(name) = frame.attributes.get(MODEL)
+        && model_called(name).is_none()
+    {
+        return Err(format!("its results are of the model {name}, which is not known here"));
     }
-    match frame.attributes.get(MODEL) {
-        Some(name) if model_called(name).is_none() => {
-            let why = format!("its results are of the model {name}, which is not known here");
-            Err(StoreError::Foreign { path: path.to_owned(), why })
-        }
-        _ => Ok(archive),
-    }
+    let Some(table) = frame.texts.get(OWN_TEXT) else { return Ok(()) };
+    let model = frame.model().without_own();
+    own_outputs::check_known(OWN_TEXT, model, table).map_err(|why| why.to_string())
 }
 
 /// What the checksum of the HDF5 file at `path` tells, and the file as it was before that.

@@ -90,7 +90,7 @@ pub fn frame(study: &Study) -> Dataset {
     dataset.attributes.insert("title".to_owned(), study.title.clone());
     dataset.attributes.extend(provenance::attributes());
     dataset.attributes.extend(protocol(study));
-    if study.base.model() != default_model() {
+    if study.base.model().without_own() != default_model() {
         dataset.attributes.insert(MODEL.to_owned(), study.base.model().name.to_owned());
     }
     let choices = study.base.choices().map(|(name, chosen)| (name.to_owned(), chosen.to_owned()));
@@ -106,6 +106,9 @@ pub fn frame(study: &Study) -> Dataset {
     dataset.texts.insert(STUDY_TEXT.to_owned(), study.text.clone());
     if let Some(equations) = study.base.model().equations {
         dataset.texts.insert(SYSTEM_TEXT.to_owned(), equations.tables.to_owned());
+    }
+    if let Some(own) = study.base.model().own {
+        dataset.texts.insert(OWN_TEXT.to_owned(), own.table.to_owned());
     }
     dataset
 }

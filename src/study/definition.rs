@@ -147,6 +147,9 @@ impl Study {
         if let Some(equations) = self.base.model().equations {
             equations.tables.hash(&mut hasher);
         }
+        if let Some(own) = self.base.model().own {
+            own.table.hash(&mut hasher);
+        }
         let Hash128 { h1, h2 } = hasher.finish128();
         format!("{h1:016x}{h2:016x}")
     }

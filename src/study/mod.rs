@@ -21,6 +21,7 @@ pub(crate) mod layout;
 mod named_model;
 pub mod named_system;
 mod normal;
+pub mod own_outputs;
 mod parameter_table;
 pub mod ramp;
 mod ramp_file;

@@ -5,19 +5,20 @@ use toml::de::DeTable;
 use super::axis_file::read_case_set;
 use super::branch_file::{Surroundings, read_branches};
 use super::conflicts::refuse;
-use super::definition::{Study, usual_outputs, with_parts};
+use super::definition::{Study, with_parts};
 use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
 use super::draws::Range;
 use super::include;
 use super::named_model::{check_model, model_in};
+use super::own_outputs::{check_used, read_outputs};
 use super::parameter_table::{ParameterTable, read_parameters};
 use super::ramp_file::read_ramps;
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
 use super::without_effect::given_without_effect;
 use super::{CaseSet, Continuation, Coordinate, Refine};
-use crate::description::{Output, Parameter, Parameters};
+use crate::description::Parameter;
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
 use crate::quantity::Dimension;
@@ -83,6 +84,7 @@ fn read_study(top: &Table<'_, '_>) -> Study {
     if let CaseSet::Draws(draws) = &case_set {
         remarks.extend(draws.ranges.iter().filter_map(Range::remark));
     }
+    check_used(top, &with_all_parts);
     Study {
         title: String::new(),
         text: String::new(),
@@ -222,21 +224,4 @@ fn read_history(table: Table<'_, '_>) -> HistorySpan {
     let from = table.entry("from").and_then(|entry| entry.one_of("beginning", &begins));
     table.finish();
     HistorySpan { cycles, per_cycle, from_start: from.unwrap_or(false) }
-}
-
-fn read_outputs(top: &Table<'_, '_>, parameters: &Parameters) -> Vec<Output> {
-    let model = top.model();
-    let Some(entry) = top.entry("outputs") else { return usual_outputs(parameters) };
-    let names: Vec<(&str, Output)> =
-        model.outputs().map(|output| (output.name(), output)).collect();
-    let mut outputs = Vec::new();
-    for entry in entry.list() {
-        match entry.one_of("output", &names) {
-            Some(output) if outputs.contains(&output) => {
-                entry.fault(format!("{} is given twice", entry.shown()))
-            }
-            output => outputs.extend(output),
-        }
-    }
-    outputs
 }

@@ -4,6 +4,7 @@ use super::compared::{OUTDATED, UNWRITTEN};
 use super::continuation::FirstOrbit;
 use super::drawing_text::write_drawing;
 use super::draws::Range;
+use super::own_outputs::written;
 use super::toml_text::{Document, inline, list, number, plain_quantity, quantity, text};
 use super::{
     Axis, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit, Normal, Ramp,
@@ -24,12 +25,13 @@ impl Study {
             document.put("title", text(&self.title));
         }
         let model = self.base.model();
-        if model != default_model() && model.equations.is_none() {
+        if model.without_own() != default_model() && model.equations.is_none() {
             document.put("model", text(model.name));
         }
-        if !self.outputs.iter().copied().eq(self.base.model().outputs()) {
-            let names = self.outputs.iter().map(|output| text(output.name()));
-            document.put("outputs", list(names));
+        let are_all = self.outputs.iter().copied().eq(self.base.model().outputs());
+        let kept = (!are_all).then(|| list(self.outputs.iter().map(|output| text(output.name()))));
+        if let Some(kept) = kept.as_ref().filter(|_| model.own.is_none()) {
+            document.put("outputs", kept);
         }
         self.write_parameters(&mut document);
         match &self.case_set {
@@ -48,6 +50,7 @@ impl Study {
         self.drawings
             .iter()
             .for_each(|drawing| write_drawing(&mut document, drawing, self.base.model()));
+        document.0.extend(written(model, kept));
         if let Some(equations) = model.equations {
             document.0 = format!("{}\n{}", document.0, equations.tables);
         }

@@ -68,6 +68,7 @@ mod other_gains;
 mod other_models;
 mod own_capsule;
 mod own_models;
+mod own_outputs;
 mod outputs;
 mod panels;
 mod phases;

@@ -170,7 +170,7 @@ fn by_fixed_steps(start: [f64; 3], [from, slope]: [f64; 2], cycles: usize) -> Ve
 #[test]
 fn the_capsule_drops_out_where_fixed_steps_drop_out() {
     let text = format!(
-        "{TWO_MOTIONS}omega = \"150 rad/s\"\n[[ramps]]\nname = \"up\"\nalong = \"omega\"\nfrom = \"155 rad/s\"\nto = \"175 rad/s\"\n\
+        "{TWO_MOTIONS}omega = \"150 rad/s\"\n[[ramps]]\nname = \"up\"\nalong = \"omega\"\nfrom = \"150 rad/s\"\nto = \"175 rad/s\"\n\
          rate = \"4 rad/s^2\"\nstart = {{ y1 = \"0.3 m/s\" }}\nbegins = \"settled\"\n"
     );
     let (ramp, ramped) = followed(&text);

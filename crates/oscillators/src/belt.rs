@@ -111,6 +111,7 @@ pub static MASS_ON_BELT: Description = Description {
     },
     rules: Rules::NONE,
     equations: None,
+    own: None,
 };
 
 /// The values of the parameters, in the order of the description.

@@ -129,6 +129,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
     },
     rules: Rules::NONE,
     equations: None,
+    own: None,
 };
 
 impl Face<2> for Impactor<f64> {

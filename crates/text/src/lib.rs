@@ -28,6 +28,6 @@
 pub mod text;
 
 pub use text::{
-    Fault, Text, derived, described, linear_rates, mode, model, program, read, read_in, sampled,
-    system, tables, unit,
+    Fault, Text, derived, described, linear_rates, mode, model, own, program, read, read_in,
+    sampled, system, tables, unit,
 };

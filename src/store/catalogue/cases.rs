@@ -10,6 +10,8 @@ pub const CASE: &str = "case";
 pub const STUDY_TEXT: &str = "study";
 /// The text of a file that holds the tables of the system of the study, where that is a text.
 pub const SYSTEM_TEXT: &str = "system";
+/// The text of a file that holds the table of the outputs that the study defines, where it does.
+pub const OWN_TEXT: &str = "own_outputs";
 /// The attribute of a file that names the axis along which attractors are numbered.
 pub const ATTRACTOR_AXIS: &str = "attractor_axis";
 

@@ -18,6 +18,6 @@ pub use cases::*;
 pub use entry::{Entry, Extent, Flags, Type};
 pub use flags::{parameters, reasons, result, results};
 pub use model::{derived, edges, end, histories, impacts, neutral, section, starts};
-pub use places::{Place, all, is_dimension, named, taken_twice};
+pub use places::{Place, all, is_dimension, lasting, named, taken_twice};
 pub use ramps::*;
 pub use tables::*;

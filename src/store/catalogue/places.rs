@@ -135,7 +135,7 @@ impl Place {
 }
 
 /// A text that is put together, and lives as long as the program: each is kept once.
-fn lasting(text: String) -> &'static str {
+pub fn lasting(text: String) -> &'static str {
     static TEXTS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let mut texts = TEXTS.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(known) = texts.get(&*text) {
@@ -175,7 +175,8 @@ fn with_repeated(model: &'static Description) -> Vec<Entry> {
 
 /// The names that a model has for something which results have for something else, too.
 pub fn taken_twice(model: &'static Description) -> BTreeSet<&'static str> {
-    let mut names = BTreeSet::from([cases::CASE, cases::STUDY_TEXT, cases::SYSTEM_TEXT]);
+    let mut names =
+        BTreeSet::from([cases::CASE, cases::STUDY_TEXT, cases::SYSTEM_TEXT, cases::OWN_TEXT]);
     let repeated = with_repeated(model).into_iter().filter(|entry| !names.insert(entry.name));
     repeated.map(|entry| entry.name).collect()
 }

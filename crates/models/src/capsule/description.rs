@@ -138,6 +138,7 @@ const ON_EVEN_GROUND: Description = Description {
     },
     rules: RULES,
     equations: None,
+    own: None,
 };
 
 /// The capsule on a way with evenly spaced folds. Its displacement drifts, as on even ground; its place between two folds is a

@@ -47,8 +47,8 @@ impl Description {
         faults
     }
 
-    /// Names that stand for two things.
-    fn faults_of_names(&self) -> Vec<String> {
+    /// The names of all quantities that it describes.
+    pub fn names(&self) -> Vec<&'static str> {
         let motion = &self.motion;
         let derived = motion.signals.iter().filter(|it| !matches!(it.source, Source::Kept(_)));
         let quantities = self.parameters.iter().map(|it| it.quantity);
@@ -59,8 +59,13 @@ impl Description {
         let quantities = quantities.chain(lists.into_iter().flatten().copied());
         let quantities = quantities.chain(derived.map(|it| it.quantity));
         let quantities = quantities.chain(motion.groups.iter().map(|it| it.quantity));
+        quantities.map(|it| it.name).collect()
+    }
+
+    /// Names that stand for two things.
+    fn faults_of_names(&self) -> Vec<String> {
         let (mut seen, mut twice) = (BTreeSet::new(), BTreeSet::new());
-        for name in quantities.map(|it| it.name) {
+        for name in self.names() {
             if !seen.insert(name) {
                 twice.insert(name);
             }

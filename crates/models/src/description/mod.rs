@@ -4,6 +4,7 @@ pub mod choice;
 mod faults;
 pub mod motion;
 pub mod output;
+mod own;
 pub mod parameter;
 pub mod parameters;
 pub mod phases;
@@ -20,6 +21,7 @@ use crate::quantity::Quantity;
 pub use choice::Choice;
 pub use motion::{Chart, MotionDescription, Signal, SignalGroup, SignalKind, Source};
 pub use output::{Output, OutputDescription, Outputs};
+pub use own::{Definitions, OwnOutputs};
 pub use parameter::{Parameter, ParameterDescription, Presence};
 pub use parameters::{Fault, Parameters};
 pub use roles::{DriveRoles, Roles, TradeOffRoles};
@@ -63,6 +65,8 @@ pub struct Description {
     pub rules: Rules,
     /// The equations of its systems, where they are given as a text; none where the program has them.
     pub equations: Option<Equations>,
+    /// The outputs that a study defines, behind those of the model that it extends; none where a study defines none.
+    pub own: Option<OwnOutputs>,
 }
 
 /// Equations that are given as a text.
@@ -96,9 +100,15 @@ impl Debug for Description {
 }
 
 impl Description {
-    /// Whether what one of two models has at a place is what the other has there, as they are one model or one extends the other.
+    /// Whether what one of two models has at a place is what the other has there, as they are one model or one extends the other,
+    /// be it by way of others.
     pub(crate) fn shares_with(&'static self, other: &'static Description) -> bool {
-        self == other || self.extends == Some(other) || other.extends == Some(self)
+        self.is_or_extends(other) || other.is_or_extends(self)
+    }
+
+    /// Whether it is another model or extends it, be it by way of others.
+    pub fn is_or_extends(&'static self, other: &'static Description) -> bool {
+        self == other || self.extends.is_some_and(|it| it.is_or_extends(other))
     }
 
     /// The point of its section with these coordinates; what is behind them is left out.

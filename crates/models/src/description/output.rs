@@ -98,7 +98,7 @@ impl Output {
 #[derive(Clone, PartialEq)]
 pub struct Outputs {
     model: &'static Description,
-    values: Box<[f64]>,
+    pub(super) values: Box<[f64]>,
 }
 
 impl Debug for Outputs {

@@ -13,8 +13,8 @@ use crate::quantity::Dimension;
 /// default.
 #[derive(Clone, PartialEq)]
 pub struct Parameters {
-    model: &'static Description,
-    values: Vec<f64>,
+    pub(super) model: &'static Description,
+    pub(super) values: Vec<f64>,
     chosen: Vec<usize>,
     /// Those that the equations have only where they are given and that are, as bits by place.
     given: u64,

@@ -2,6 +2,7 @@
 
 mod filled;
 mod leads;
+mod own;
 mod registry;
 mod stable;
 

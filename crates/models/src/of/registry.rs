@@ -5,6 +5,7 @@ use std::sync::{PoisonError, RwLock};
 
 use capsulemap_engine::orbit::Protocol;
 
+use super::own::with_own;
 use super::{AS_PRINTED, FILIPPOV, GENERAL, OVER_FOLDS};
 use crate::capsule::description::{CAPSULE, CAPSULE_OVER_FOLDS};
 use crate::capsule::{CapsuleParameters as _, Form};
@@ -96,7 +97,8 @@ pub fn default_model() -> &'static Description {
     &CAPSULE
 }
 
-/// The model that has these parameters; of a capsule by the form of its equations.
+/// The model that has these parameters; of a capsule by the form of its equations. With the outputs that a study defines, if
+/// the description has such.
 ///
 /// # Panics
 /// Where it is not registered.
@@ -104,6 +106,9 @@ pub fn default_model() -> &'static Description {
 #[inline(never)]
 pub fn model_of(parameters: &Parameters) -> &'static dyn Model {
     let description = parameters.model();
+    if description.own.is_some() {
+        return with_own(description, model_of(&parameters.without_own()));
+    }
     if OWN.contains(&description) {
         return match parameters.form() {
             Form::Filippov => &FILIPPOV,

@@ -42,6 +42,7 @@ static OTHER: Description = Description {
     roles: CAPSULE.roles,
     rules: CAPSULE.rules,
     equations: None,
+    own: None,
 };
 
 #[test]

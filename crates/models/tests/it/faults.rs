@@ -64,6 +64,7 @@ static WRONG: Description = Description {
     },
     rules: Rules::NONE,
     equations: None,
+    own: None,
 };
 
 impl Face<2> for Duffing<f64> {

@@ -54,12 +54,12 @@ fn first_count(text: &Text) -> usize {
 }
 
 /// Characters that are kept as long as the program runs, as those of its own models are.
-fn kept(text: impl Into<String>) -> &'static str {
+pub(crate) fn kept(text: impl Into<String>) -> &'static str {
     Box::leak(text.into().into_boxed_str())
 }
 
 /// A list that is kept as long.
-fn list<T>(items: impl IntoIterator<Item = T>) -> &'static [T] {
+pub(crate) fn list<T>(items: impl IntoIterator<Item = T>) -> &'static [T] {
     Box::leak(items.into_iter().collect::<Vec<_>>().into_boxed_slice())
 }
 
@@ -122,6 +122,7 @@ pub fn description(program: &'static Program, equations: Equations) -> &'static 
         },
         rules: Rules { remarks: remarks_on_units, ..Rules::NONE },
         equations: Some(equations),
+        own: None,
     }))
 }
 
@@ -157,7 +158,7 @@ fn of_state(state: &State, prefix: &str, meaning: &str) -> Quantity {
 }
 
 /// The unit of a dimension as figures show it.
-fn of_unit(dimension: Dimension) -> &'static str {
+pub(crate) fn of_unit(dimension: Dimension) -> &'static str {
     match dimension.unit() {
         "1" => "",
         unit => kept(raised(unit)),

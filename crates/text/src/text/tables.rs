@@ -23,6 +23,15 @@ pub(crate) fn system_alone(text: &str) -> String {
     alone
 }
 
+/// A table within another, with its heading, in the order of the text and without comments; empty where there is none.
+pub(crate) fn table_alone(text: &str, heading: &str, within: &DeTable<'_>, key: &str) -> String {
+    let mut alone = String::new();
+    if let Some(table) = within.get(key).and_then(|it| it.get_ref().as_table()) {
+        write_table(&mut alone, text, heading, table);
+    }
+    alone
+}
+
 fn write_system(alone: &mut String, text: &str, system: &DeTable<'_>) {
     alone.push_str("[system]\n");
     let entries = in_order(system);

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use capsulemap_models::quantity::Dimension;
+
 /// Units that others are told by: a name, its size, and the powers of kg, m, s and A that it is made of.
 const NAMED: [(&str, f64, [i8; 4]); 28] = [
     ("kg", 1.0, [1, 0, 0, 0]),
@@ -160,6 +162,23 @@ impl Unit {
         self.powers.is_empty()
     }
 
+    /// What a value in it is multiplied by to be in another unit; none where that is of another kind.
+    pub fn ratio(&self, other: &Unit) -> Option<f64> {
+        let ratio = self.size.zip(other.size).map(|(a, b)| a / b);
+        ratio.filter(|_| self.powers == other.powers)
+    }
+
+    /// The unit of the same kind that is made of units of the SI.
+    pub fn of_si(&self) -> Unit {
+        Unit { size: Some(1.0), powers: self.powers.clone() }
+    }
+
+    /// Whether a name is that of a unit.
+    pub fn is_known(name: &str) -> bool {
+        let is_of_letters = name.chars().all(char::is_alphabetic);
+        is_of_letters && Unit::of(name).unknown().next().is_none()
+    }
+
     /// What it is made of that is no unit that is known.
     pub fn unknown(&self) -> impl Iterator<Item = &str> {
         let names = self.powers.keys().map(String::as_str);
@@ -174,6 +193,33 @@ impl Unit {
             let prefix = PREFIXES.iter().find(|it| is_it(it.1))?;
             Some((base.as_str(), prefix.0))
         })
+    }
+
+    /// How it is written in few words: as a unit that has a name, or with one of force, energy or power in it where that takes
+    /// fewer powers than without.
+    pub fn in_fewest(&self) -> String {
+        let mut named = Dimension::ALL.into_iter().map(Dimension::unit);
+        let is_it = |it: &&str| !it.contains("rad") && Unit::of(it).fits(self);
+        if let Some(unit) = named.find(is_it) {
+            return unit.to_owned();
+        }
+        let with = ["N", "J", "W"].into_iter().flat_map(|name| {
+            [1.0, -1.0].map(|power| {
+                let mut rest = self.over(&Unit::of(name).power(power));
+                rest.powers.insert(name.to_owned(), power);
+                rest
+            })
+        });
+        let fewest = std::iter::once(self.clone()).chain(with);
+        let fewest = fewest.min_by(|a, b| a.count().total_cmp(&b.count()));
+        fewest.map_or_else(String::new, |it| it.written())
+    }
+
+    /// How many units are multiplied or divided by in it; with nothing above its line it takes more words than with one unit there.
+    fn count(&self) -> f64 {
+        let count: f64 = self.powers.values().map(|it| it.abs()).sum();
+        let has_above = self.powers.values().any(|it| *it > 0.0);
+        if has_above { count } else { count + 1.5 }
     }
 
     /// How it is written, with its size where that is not one.

@@ -13,6 +13,7 @@ mod faults;
 mod lasting;
 mod more;
 mod outputs;
+mod own;
 mod random_texts;
 mod sampled;
 mod six;
