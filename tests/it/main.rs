@@ -12,6 +12,7 @@ mod catalogue;
 mod chaotic_basins;
 mod circles;
 mod cli;
+mod codim2;
 mod comparisons;
 mod conditional_fronts;
 mod conditions;

@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
-use super::branches::{BRANCH_CYCLE, BRANCH_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT};
+use super::branches::{
+    BRANCH_CYCLE, BRANCH_POINT, CODIM2_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT,
+};
 use super::entry::{Entry, Extent};
 use super::model::{derived, edges, end, histories, impacts, neutral, section};
 use super::tables::{ATTRACTOR_CYCLE, ATTRACTOR_INDEX, EVENT};
@@ -26,16 +28,19 @@ pub enum Place {
     Special,
     /// The points of the curves.
     Curve,
+    /// Their points of codimension 2.
+    Codim2,
 }
 
 impl Place {
-    const ALL: [Place; 6] = [
+    const ALL: [Place; 7] = [
         Place::Attractor,
         Place::Event,
         Place::Request,
         Place::Branch,
         Place::Special,
         Place::Curve,
+        Place::Codim2,
     ];
 
     /// What the names of its columns begin with.
@@ -47,6 +52,7 @@ impl Place {
             Place::Branch => "branch_",
             Place::Special => "special_",
             Place::Curve => "curve_",
+            Place::Codim2 => "codim2_",
         }
     }
 
@@ -76,6 +82,7 @@ impl Place {
             (Place::Event, _) => Extent::Table(EVENT.name),
             (Place::Request, _) => Extent::Table(REQUEST.name),
             (Place::Curve, _) => Extent::Table(CURVE_POINT.name),
+            (Place::Codim2, _) => Extent::Table(CODIM2_POINT.name),
             (Place::Branch, Extent::CaseRow(_)) => {
                 Extent::TableRow(BRANCH_POINT.name, BRANCH_CYCLE.name)
             }
@@ -97,6 +104,7 @@ impl Place {
             Place::Branch => "branch",
             Place::Special => "special point",
             Place::Curve => "curve",
+            Place::Codim2 => "point of codimension 2",
         };
         self.column(entry, lasting(format!("{place}: {}", entry.meaning)))
     }
@@ -107,7 +115,7 @@ impl Place {
         let parameters = self.parameters(model).filter(|_| self != Place::Attractor);
         let mut columns: Vec<Entry> = parameters.collect();
         let of_orbits = matches!(self, Place::Attractor | Place::Branch | Place::Special);
-        if of_orbits || self == Place::Event {
+        if of_orbits || matches!(self, Place::Event | Place::Codim2) {
             columns.extend(section(model).into_iter().map(|entry| self.of(entry)));
         }
         if of_orbits {
