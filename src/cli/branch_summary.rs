@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::branch::{Curve, End, SpecialKind, is_followed};
+use crate::branch::{Codim2, Codim2Kind, Curve, End, SpecialKind, is_followed};
 use crate::campaign::Beside;
 use crate::campaign::count::counted;
 use crate::description::Parameter;
@@ -62,10 +62,22 @@ fn write_found(text: &mut String, continuation: &Continuation, found: &Found) {
         let (name, points) = (kind_name(*kind), points.len());
         let ends = shown_ends(ends.map(Some));
         let _ = writeln!(text, "  curve of {name}, period {period}: {points} points{ends}");
+        curve.codim2.iter().for_each(|point| write_codim2(text, continuation, point));
     }
     if continuation.second.is_some() {
         write_without_curve(text, found);
     }
+}
+
+/// A point of codimension 2 with the values of its two parameters.
+fn write_codim2(text: &mut String, continuation: &Continuation, point: &Codim2) {
+    let Some((second, _)) = continuation.second else { return };
+    let name = Codim2Kind::NAMES.iter().find(|(_, it)| *it == point.kind).map_or("", |it| it.0);
+    let place = if point.kind == Codim2Kind::Unresolved { "beside" } else { "at" };
+    let values = [continuation.along, second].into_iter().zip(point.parameters);
+    let values = values.map(|(it, value)| format!("{} = {}", it.symbol(), quantity(it, value)));
+    let values: Vec<String> = values.collect();
+    let _ = writeln!(text, "    {name} {place} {}", values.join(", "));
 }
 
 /// Where a branch left another, or that its period is not the one that was asked for.
@@ -157,6 +169,7 @@ fn end_text(end: End) -> &'static str {
         End::Vanishes => "where its touch of the stop vanishes",
         End::Equilibrium => "at an equilibrium",
         End::LongestWait => "where an orbit takes longest",
+        End::StrongResonance => "at a strong resonance",
         End::Stopped => "where it cannot be continued further",
     }
 }
@@ -256,6 +269,10 @@ to = \"5 N\"
         }
     }
 
+    fn codim2(kind: Codim2Kind, parameters: [f64; 2]) -> Codim2 {
+        Codim2 { kind, after: 2, parameters, section: vec![0.0; 3], multipliers: Vec::new() }
+    }
+
     #[test]
     fn branches_are_shown_with_their_ends_and_changes() {
         let study = Study::parse("study.toml", STUDY).expect("a study");
@@ -284,6 +301,10 @@ to = \"5 N\"
             through: (0, 0),
             period: 1,
             points: vec![[4.0, 1.0]; 7],
+            codim2: vec![
+                codim2(Codim2Kind::Cusp, [3.5, 1.25]),
+                codim2(Codim2Kind::Unresolved, [4.0, 1.0]),
+            ],
             ends: [End::MostPoints; 2],
         };
         let not_left = vec![(0, 0)];
@@ -307,6 +328,8 @@ a, branch 2: period 2
   event-sequence        4.123456789       2      12.500000
   no orbit of twice the period was found off branch 1 at 4.123456789 N
   curve of fold, period 1: 7 points, both ends where `most_points` is reached
+    cusp at p_d = 3.5 N, k2 = 1.25 N/m
+    unresolved beside p_d = 4 N, k2 = 1 N/m
   no curve through 1 grazing, 2 event-sequence (never continued)
 
 b: not continued: no periodic orbit was found near the start; give one closer to it

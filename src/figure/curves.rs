@@ -3,6 +3,7 @@
 use super::axis::AxisRequest;
 use super::branch_lines::{draw_symbols, faded};
 use super::canvas::{Canvas, Drawn, Stroke};
+use super::codim2_symbol::{CODIM2_SYMBOLS, Codim2Symbol};
 use super::error::FigureError;
 use super::header::{self, Header, Mark};
 use super::kind::{Kind, Names, Needs};
@@ -16,9 +17,10 @@ use super::varied::{along, varied};
 use super::view::View;
 use crate::description::Description;
 use crate::store::catalogue::{
-    CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH, DIRECTION, INDEX_REQUEST, Place,
-    SPECIAL_BRANCH, SPECIAL_CURVE,
+    CODIM2_CURVE, CODIM2_KIND, CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH, DIRECTION, Entry,
+    INDEX_REQUEST, Place, SPECIAL_BRANCH, SPECIAL_CURVE,
 };
+use crate::store::dataset::Dataset;
 use crate::study::Drawing;
 
 /// Height of the frame [pt].
@@ -34,6 +36,8 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
     /// The special points that it goes through.
     specials: Vec<(f64, f64)>,
+    /// Its points of codimension 2.
+    pub codim2: Vec<(Codim2Symbol, (f64, f64))>,
 }
 
 /// The kind of figure.
@@ -41,9 +45,9 @@ pub const KIND: Kind = Kind { needs: Needs::Branches, reads, draw };
 
 /// What is read of the curves, and of the special points that they go through.
 pub fn reads(_: &Drawing, model: &'static Description) -> Names {
-    let places = [Place::Request, Place::Special, Place::Curve];
+    let places = [Place::Request, Place::Special, Place::Curve, Place::Codim2];
     Names::of([CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH])
-        .and([SPECIAL_BRANCH, SPECIAL_CURVE, INDEX_REQUEST])
+        .and([SPECIAL_BRANCH, SPECIAL_CURVE, INDEX_REQUEST, CODIM2_CURVE, CODIM2_KIND])
         .and(places.into_iter().flat_map(|place| place.parameters(model)))
 }
 
@@ -52,7 +56,10 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let axes = axes(view)?;
     let mut curves = curves(view, &axes);
     if !view.shows("special-points") {
-        curves.iter_mut().for_each(|curve| curve.specials.clear());
+        for curve in &mut curves {
+            curve.specials.clear();
+            curve.codim2.clear();
+        }
     }
     let places = curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.specials));
     let (x, y): (Vec<f64>, Vec<f64>) = places.copied().unzip();
@@ -71,7 +78,9 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         draw_curves(&mut canvas, panel, &curves);
         panel.finish(&mut canvas);
     }
-    let names = SYMBOLS.map(|symbol| symbol.name.to_owned());
+    let names = met(&curves).map(|symbol| symbol.name);
+    let names = names.chain(SYMBOLS.map(|symbol| symbol.name)).map(str::to_owned);
+    let names: Vec<String> = names.collect();
     Ok(canvas.finish(&view.about(&names, &drawn)).noting(left_out))
 }
 
@@ -116,6 +125,10 @@ struct Columns<'a> {
     request: Rows,
     /// The curve that a special point is on.
     of_special: Rows,
+    /// The kinds of points of codimension 2, and the curves that they are on.
+    codim2_kind: Rows,
+    codim2_kinds: &'a [(i64, String)],
+    codim2_curve: Rows,
     /// The two parameters.
     axes: [AxisColumns; 2],
 }
@@ -126,15 +139,18 @@ struct AxisColumns {
     factor: f64,
     on_curve: Rows,
     at_special: Rows,
+    at_codim2: Rows,
     /// What branches have that do not vary it.
     asked: Rows,
 }
 
 impl AxisColumns {
     fn of(view: &View<'_>, name: &str) -> AxisColumns {
-        let [on_curve, at_special, asked] = [Place::Curve, Place::Special, Place::Request]
-            .map(|place| Rows::new(view.dataset, &place.name(name)));
-        AxisColumns { factor: view.quantity(name).factor, on_curve, at_special, asked }
+        let places = [Place::Curve, Place::Special, Place::Codim2, Place::Request];
+        let [on_curve, at_special, at_codim2, asked] =
+            places.map(|place| Rows::new(view.dataset, &place.name(name)));
+        let factor = view.quantity(name).factor;
+        AxisColumns { factor, on_curve, at_special, at_codim2, asked }
     }
 
     /// The value at a point of a curve, in the unit shown.
@@ -154,18 +170,22 @@ impl<'a> Columns<'a> {
         let entries = [CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH, SPECIAL_BRANCH];
         let [number, kind, period, through, branch] =
             entries.map(|entry| Rows::new(view.dataset, entry.name));
-        let [request, of_special] =
-            [INDEX_REQUEST, SPECIAL_CURVE].map(|entry| Rows::new(view.dataset, entry.name));
+        let entries = [INDEX_REQUEST, SPECIAL_CURVE, CODIM2_KIND, CODIM2_CURVE];
+        let [request, of_special, codim2_kind, codim2_curve] =
+            entries.map(|entry| Rows::new(view.dataset, entry.name));
         Columns {
             fits: in_view(view, &[&axes[0], &axes[1]]),
             number,
             kind,
-            kinds: view.dataset.variable(CURVE_KIND.name).map_or(&[][..], |it| &it.flags),
+            kinds: flags(view.dataset, CURVE_KIND),
             period,
             through,
             branch,
             request,
             of_special,
+            codim2_kind,
+            codim2_kinds: flags(view.dataset, CODIM2_KIND),
+            codim2_curve,
             axes: axes.each_ref().map(|name| AxisColumns::of(view, name)),
         }
     }
@@ -181,16 +201,29 @@ impl<'a> Columns<'a> {
         if !is_within || points.iter().any(|(x, y)| !x.is_finite() || !y.is_finite()) {
             return None;
         }
-        let kind = self.kinds.iter().find(|(code, _)| *code as f64 == self.kind.one(first));
-        let specials = self.of_special.places(self.number.one(first) as usize).into_iter();
+        let number = self.number.one(first) as usize;
+        let specials = self.of_special.places(number).into_iter();
         Some(Curve {
-            symbol: Symbol::named(&kind?.1)?,
+            symbol: Symbol::named(named(self.kinds, self.kind.one(first))?)?,
             period: self.period.one(first) as u64,
             points,
             specials: specials
                 .map(|it| (x.special_value(it, asked), y.special_value(it, asked)))
                 .collect(),
+            codim2: self.codim2(number),
         })
+    }
+
+    /// The points of codimension 2 on the curve of this number.
+    fn codim2(&self, number: usize) -> Vec<(Codim2Symbol, (f64, f64))> {
+        let places = self.codim2_curve.places(number).into_iter();
+        let symbols = places.filter_map(|place| {
+            let symbol =
+                Codim2Symbol::named(named(self.codim2_kinds, self.codim2_kind.one(place))?)?;
+            let [x, y] = self.axes.each_ref().map(|axis| axis.at_codim2.one(place) * axis.factor);
+            Some((symbol, (x, y)))
+        });
+        symbols.collect()
     }
 }
 
@@ -201,6 +234,16 @@ impl Curve {
         let colour = (0..rank.min(2)).fold(self.symbol.colour, |colour, _| faded(colour));
         Stroke { colour, width: 1.2 * CURVE_WIDTH, dash: self.symbol.dash }
     }
+}
+
+/// The names of the categories of a variable.
+fn flags(dataset: &Dataset, entry: Entry) -> &[(i64, String)] {
+    dataset.variable(entry.name).map_or(&[], |it| &it.flags)
+}
+
+/// The name of a category among all.
+fn named(flags: &[(i64, String)], code: f64) -> Option<&str> {
+    flags.iter().find(|(known, _)| *known as f64 == code).map(|(_, name)| name.as_str())
 }
 
 /// The periods that occur, the shortest first.
@@ -226,7 +269,15 @@ pub fn legend(curves: &[Curve]) -> Vec<header::Entry> {
             legend.push((Mark::Line(curve.stroke(&periods)), Text::plain(&words)));
         }
     }
+    legend.extend(met(curves).map(|it| (Mark::Codim2(it), Text::plain(it.words))));
     legend
+}
+
+/// The kinds of points of codimension 2 on the curves.
+fn met(curves: &[Curve]) -> impl Iterator<Item = Codim2Symbol> {
+    CODIM2_SYMBOLS
+        .into_iter()
+        .filter(|symbol| curves.iter().flat_map(|it| &it.codim2).any(|(other, _)| other == symbol))
 }
 
 /// Draws the curves, and the special points of branches on them.
@@ -242,5 +293,11 @@ pub fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
     }
     for curve in curves {
         draw_symbols(canvas, panel, curve.symbol, curve.specials.iter().copied());
+    }
+    for (symbol, (x, y)) in curves.iter().flat_map(|curve| &curve.codim2) {
+        if panel.holds(*x, *y) {
+            symbol.draw(canvas, panel.place(*x, *y));
+            panel.record(canvas, symbol.words, [(*x, *y)]);
+        }
     }
 }

@@ -3,6 +3,7 @@
 use plotters::style::RGBColor;
 
 use super::canvas::{Anchor, Canvas, Stroke};
+use super::codim2_symbol::{Codim2Symbol, RING};
 use super::geometry::{Point, Rect};
 use super::raster::{Fill, Raster};
 use super::style::{CURVE_WIDTH, HEADER, INK, LABEL_SIZE, MINOR_WIDTH, SMALL_SIZE};
@@ -24,6 +25,8 @@ pub enum Mark {
     Filled(Fill),
     /// The symbol of a special point.
     Symbol(Symbol),
+    /// The symbol of a point of codimension 2.
+    Codim2(Codim2Symbol),
     /// Discs of several colours.
     Discs([RGBColor; 3], f64),
     /// No mark: the text continues that of the entry before.
@@ -35,6 +38,7 @@ impl Mark {
     fn width(self) -> f64 {
         match self {
             Mark::Disc(..) | Mark::Ring(..) | Mark::Symbol(_) | Mark::Nothing => POINT_WIDTH,
+            Mark::Codim2(_) => 2.0 * RING,
             Mark::Line(_) | Mark::Patch(_) | Mark::Filled(_) | Mark::Discs(..) => MARK_WIDTH,
         }
     }
@@ -176,6 +180,7 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
             canvas.rings(&[centre], radius, Stroke::solid(colour, CURVE_WIDTH));
         }
         Mark::Symbol(symbol) => symbol.draw(canvas, centre),
+        Mark::Codim2(symbol) => symbol.draw(canvas, centre),
         Mark::Nothing => {}
         Mark::Patch(colour) => canvas.fill(patch, colour),
         Mark::Filled(fill) => canvas.image(patch, &Raster::cells(patch, |_| 0, |_| 0, |_, _| fill)),

@@ -16,6 +16,7 @@ mod cloud;
 mod coloured;
 mod colour;
 mod contour;
+mod codim2_symbol;
 mod curves;
 mod data;
 mod diagram;

@@ -9,6 +9,7 @@ use super::curves::{self, Curve, curves};
 use super::error::FigureError;
 use super::plane::Plane;
 use super::shown::Shown;
+use super::style::INK;
 use super::symbol::Symbol;
 use super::track::{Rows, elsewhere, in_view};
 use super::varied;
@@ -37,7 +38,7 @@ pub struct MapLine {
 pub struct MapPoint {
     /// What happens there.
     pub words: &'static str,
-    /// The colour of curves of such points.
+    /// The colour of curves of such points; of a point of codimension 2 that of ink.
     pub colour: [u8; 3],
     /// Where it is.
     pub at: [f64; 2],
@@ -48,7 +49,7 @@ pub struct MapPoint {
 pub struct OverMap {
     /// Curves of special points, and branches.
     pub lines: Vec<MapLine>,
-    /// The special points of the branches.
+    /// The points of codimension 2 on the curves, and the special points of the branches.
     pub points: Vec<MapPoint>,
     /// How many branches lie at other values of the axes that are held; none if all are shown.
     pub left_out: Option<String>,
@@ -76,6 +77,12 @@ pub fn over_map<'a>(
     let of_curves = curves(&view, &axes.map(str::to_owned));
     let mut over = OverMap { left_out: elsewhere(&view, &axes), ..OverMap::default() };
     over.lines = of_curves.iter().map(line_of).collect();
+    let met = of_curves.iter().flat_map(|curve| &curve.codim2);
+    over.points.extend(met.map(|(symbol, (x, y))| MapPoint {
+        words: symbol.words,
+        colour: channels(INK),
+        at: [*x, *y],
+    }));
     Branches::new(&view, axes).add_to(&mut over);
     Ok(over)
 }

@@ -139,30 +139,52 @@ impl Symbol {
                 canvas.rings(&[at], RADIUS * 1.4, Stroke::solid(INK, CURVE_WIDTH));
             }
             Shape::Square => {
-                let reach = RADIUS;
-                let (x, y) = at;
-                let [a, b, c, d] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-                    .map(|(u, v)| (x + u * reach, y + v * reach));
-                let sides = [(a, b), (b, c), (c, d), (d, a)];
-                canvas.segments(&sides, Stroke::solid(PAPER, 2.5 * CURVE_WIDTH));
-                canvas.segments(&sides, Stroke::solid(INK, CURVE_WIDTH));
+                square(canvas, at, RADIUS, Stroke::solid(PAPER, 2.5 * CURVE_WIDTH));
+                square(canvas, at, RADIUS, Stroke::solid(INK, CURVE_WIDTH));
             }
-            Shape::Cross => {
-                let reach = RADIUS * 0.62;
-                let (x, y) = at;
-                let ends = [
-                    ((x - reach, y - reach), (x + reach, y + reach)),
-                    ((x - reach, y + reach), (x + reach, y - reach)),
-                ];
-                canvas.segments(&ends, Stroke::solid(INK, CURVE_WIDTH));
-            }
+            Shape::Cross => cross(canvas, at, RADIUS),
         }
     }
 
-    fn fill(&self, canvas: &mut Canvas, (x, y): Point, corners: &[Point]) {
-        for (radius, colour) in [(RADIUS + 0.7, PAPER), (RADIUS, INK)] {
-            let corners = corners.iter().map(|(dx, dy)| (x + dx * radius, y + dy * radius));
-            canvas.polygon(&corners.collect::<Vec<Point>>(), colour);
+    /// Draws the symbol smaller, without a rim, on paper.
+    pub fn draw_within(&self, canvas: &mut Canvas, at: Point, radius: f64) {
+        match self.shape {
+            Shape::Triangle => polygon(canvas, at, &TRIANGLE, radius, INK),
+            Shape::Diamond => polygon(canvas, at, &DIAMOND, radius, INK),
+            Shape::Star => polygon(canvas, at, &STAR, radius, INK),
+            Shape::Ring | Shape::Circle => {
+                canvas.rings(&[at], radius * 0.85, Stroke::solid(INK, 0.8 * CURVE_WIDTH));
+            }
+            Shape::Square => square(canvas, at, radius, Stroke::solid(INK, 0.8 * CURVE_WIDTH)),
+            Shape::Cross => cross(canvas, at, radius),
         }
     }
+
+    fn fill(&self, canvas: &mut Canvas, at: Point, corners: &[Point]) {
+        for (radius, colour) in [(RADIUS + 0.7, PAPER), (RADIUS, INK)] {
+            polygon(canvas, at, corners, radius, colour);
+        }
+    }
+}
+
+fn polygon(canvas: &mut Canvas, (x, y): Point, corners: &[Point], radius: f64, colour: RGBColor) {
+    let corners = corners.iter().map(|(dx, dy)| (x + dx * radius, y + dy * radius));
+    canvas.polygon(&corners.collect::<Vec<Point>>(), colour);
+}
+
+/// The sides of a square whose corners are so far from its middle along each axis.
+fn square(canvas: &mut Canvas, (x, y): Point, reach: f64, stroke: Stroke) {
+    let [a, b, c, d] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(u, v)| (x + u * reach, y + v * reach));
+    canvas.segments(&[(a, b), (b, c), (c, d), (d, a)], stroke);
+}
+
+/// Two strokes across each other.
+fn cross(canvas: &mut Canvas, (x, y): Point, radius: f64) {
+    let reach = radius * 0.62;
+    let ends = [
+        ((x - reach, y - reach), (x + reach, y + reach)),
+        ((x - reach, y + reach), (x + reach, y - reach)),
+    ];
+    canvas.segments(&ends, Stroke::solid(INK, CURVE_WIDTH));
 }

@@ -63,6 +63,7 @@ pub fn add_branches(dataset: &mut Dataset, study: &Study, continued: &[Continued
         (SPECIAL_POINT, flat.specials.len()),
         (CURVE_INDEX, flat.curves.len()),
         (CURVE_POINT, flat.curve_points.len()),
+        (CODIM2_POINT, flat.codim2.len()),
     ] {
         dataset.put_coordinate(dimension, Values::count(length));
     }
@@ -78,6 +79,7 @@ pub fn add_branches(dataset: &mut Dataset, study: &Study, continued: &[Continued
     specials.add(dataset, &along, &study.outputs);
     add_special_kinds(dataset, &flat);
     add_curves(dataset, study, &flat);
+    add_codim2(dataset, study, &flat);
 }
 
 /// The parameters among `given`, each once, in the order of the model.
@@ -163,12 +165,36 @@ fn add_curves(dataset: &mut Dataset, study: &Study, flat: &Flat<'_>) {
     columns.integers(CURVE_KIND, |it| flat.curves[it.curve].kind as i64);
     columns.integers(CURVE_PERIOD, |it| flat.curves[it.curve].period as i64);
     columns.integers(CURVE_THROUGH, |it| flat.curves[it.curve].through as i64);
-    let asked = study.branches.iter().filter(|branch| branch.second.is_some());
-    for parameter in parameters(asked.flat_map(Continuation::varied)) {
+    for parameter in of_curves(study) {
         columns.reals(Place::Curve.of(Entry::of_parameter(parameter)), |it| {
-            let varied = flat.curves[it.curve].varied;
-            let place = varied.iter().position(|&varied| varied == Some(parameter));
-            place.map_or(f64::NAN, |place| it.parameters[place])
+            flat.curves[it.curve].value(parameter, it.parameters)
         });
     }
+}
+
+/// The parameters in which curves are continued.
+fn of_curves(study: &Study) -> Vec<Parameter> {
+    let asked = study.branches.iter().filter(|branch| branch.second.is_some());
+    parameters(asked.flat_map(Continuation::varied))
+}
+
+/// The points of codimension 2 on the curves.
+fn add_codim2(dataset: &mut Dataset, study: &Study, flat: &Flat<'_>) {
+    let count = dataset.model().section.len();
+    let coordinates = section(dataset.model());
+    let mut columns = Columns { dataset, rows: &flat.codim2 };
+    columns.integers(CODIM2_KIND, |it| it.point.kind as i64);
+    columns.integers(CODIM2_CURVE, |it| it.curve as i64);
+    columns.integers(CODIM2_AFTER, |it| it.after as i64);
+    columns.integers(CODIM2_PERIOD, |it| flat.curves[it.curve].period as i64);
+    for parameter in of_curves(study) {
+        columns.reals(Place::Codim2.of(Entry::of_parameter(parameter)), |it| {
+            flat.curves[it.curve].value(parameter, it.point.parameters)
+        });
+    }
+    for (i, entry) in coordinates.into_iter().enumerate() {
+        columns.reals(Place::Codim2.of(entry), |it| it.point.section[i]);
+    }
+    columns.several(CODIM2_MULTIPLIER_REAL, count, |it, at| it.point.multipliers[at].re);
+    columns.several(CODIM2_MULTIPLIER_IMAG, count, |it, at| it.point.multipliers[at].im);
 }

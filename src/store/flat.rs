@@ -1,7 +1,7 @@
 //! The branches of a study one after another, as they lie in a file: what referred within one refers to all.
 
 use super::branch_columns::Row;
-use crate::branch::{Curve, End, SpecialKind};
+use crate::branch::{Codim2, Curve, End, SpecialKind};
 use crate::description::Parameter;
 use crate::motion::branch::Branch;
 use crate::run::Continued;
@@ -35,12 +35,30 @@ pub struct FlatCurve {
     pub ends: [End; 2],
 }
 
+impl FlatCurve {
+    /// The value of a parameter where the two of the curve have these values; NaN where it is neither.
+    pub fn value(&self, parameter: Parameter, parameters: [f64; 2]) -> f64 {
+        let place = self.varied.iter().position(|&varied| varied == Some(parameter));
+        place.map_or(f64::NAN, |place| parameters[place])
+    }
+}
+
 /// A point of a curve among all.
 pub struct FlatCurvePoint {
     /// Number of the curve.
     pub curve: usize,
     /// The first and the second parameter there.
     pub parameters: [f64; 2],
+}
+
+/// A point of codimension 2 among all.
+pub struct FlatCodim2<'a> {
+    /// Number of the curve.
+    pub curve: usize,
+    /// The point of the curve that it comes after.
+    pub after: usize,
+    /// What it is.
+    pub point: &'a Codim2,
 }
 
 /// What a special point is, beside its orbit.
@@ -68,6 +86,8 @@ pub struct Flat<'a> {
     pub curves: Vec<FlatCurve>,
     /// Their points.
     pub curve_points: Vec<FlatCurvePoint>,
+    /// Their points of codimension 2.
+    pub codim2: Vec<FlatCodim2<'a>>,
 }
 
 impl<'a> Flat<'a> {
@@ -113,12 +133,17 @@ impl<'a> Flat<'a> {
         }));
     }
 
-    fn add_curve(&mut self, continuation: &Continuation, curve: &Curve, through: usize) {
-        let number = self.curves.len();
+    fn add_curve(&mut self, continuation: &Continuation, curve: &'a Curve, through: usize) {
+        let (number, first) = (self.curves.len(), self.curve_points.len());
         let second = continuation.second.map(|(parameter, _)| parameter);
         let varied = [Some(continuation.along), second];
         let Curve { kind, period, ends, .. } = *curve;
         self.curves.push(FlatCurve { kind, period, through, varied, ends });
+        self.codim2.extend(curve.codim2.iter().map(|point| FlatCodim2 {
+            curve: number,
+            after: first + point.after,
+            point,
+        }));
         let points = curve.points.iter();
         self.curve_points
             .extend(points.map(|&parameters| FlatCurvePoint { curve: number, parameters }));

@@ -158,6 +158,15 @@ fn curves_lie_over_two_parameters() {
     }
     let unmarked = with_branches(store::frame(&study), &study, &unmarked);
     assert!(svg(&unmarked, &request).len() < svg(&alone, &request).len());
+    // So is every point of codimension 2, and neither is where they are hidden.
+    let mut smooth = continued();
+    if let Ok(found) = &mut smooth[0] {
+        found.curves[0].codim2.clear();
+    }
+    let smooth = with_branches(store::frame(&study), &study, &smooth);
+    assert!(svg(&smooth, &request).len() + 1000 < svg(&alone, &request).len());
+    let hidden = Drawing { hide: vec!["special-points".to_owned()], ..request.clone() };
+    assert_eq!(svg(&smooth, &hidden), svg(&alone, &hidden));
     let mut doubled = continued();
     if let Ok(found) = &mut doubled[0] {
         found.curves[1].period = 2;

@@ -272,7 +272,9 @@ fn curves_and_branches_lie_over_a_map_where_they_were_found() {
     // What a branch does not vary has one value.
     assert!(of(&branches, 1).iter().all(|it| *it == 2.79));
     let specials = over["points"].as_array().expect("a list");
-    assert_eq!(specials.len(), reals(&file, "special_omega").len());
+    let [of_branches, of_curves] =
+        ["special_omega", "codim2_omega"].map(|it| reals(&file, it).len());
+    assert_eq!(specials.len(), of_branches + of_curves);
 }
 
 /// The capsule of `studies/regions.toml` over a coarse grid, with the curve of one of its folds.

@@ -14,6 +14,7 @@ mod chaotic_basins;
 mod claims;
 mod circles;
 mod cli;
+mod codim2;
 mod comparisons;
 mod conditional_fronts;
 mod conditions;

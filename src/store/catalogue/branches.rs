@@ -1,7 +1,7 @@
 //! The entries of the branches, their special points and their curves.
 
 use super::entry::{Entry, Extent::*, Type::*, entries};
-use super::flags::{ends, specials, stabilities};
+use super::flags::{codim2_kinds, ends, specials, stabilities};
 
 /// The text of a file that names the branches of the study, one a line.
 pub const BRANCH_NAMES: &str = "branch_names";
@@ -97,10 +97,27 @@ entries! {
         "period of its orbits in cycles";
     CURVE_THROUGH "curve_through" "1" Table(CURVE_POINT.name), Whole, None,
         "special point that it was followed from";
+
+    CODIM2_POINT "codim2_point" "1" Dimension, Whole, None,
+        "point of codimension 2 on the curves, one curve after the other";
+    CODIM2_KIND "codim2_kind" "1" Table(CODIM2_POINT.name), Category(codim2_kinds), None,
+        "what happens at the point of codimension 2";
+    CODIM2_CURVE "codim2_curve" "1" Table(CODIM2_POINT.name), Whole, None,
+        "curve that it lies on";
+    CODIM2_AFTER "codim2_after" "1" Table(CODIM2_POINT.name), Whole, None,
+        "point of the curve that it comes after";
+    CODIM2_PERIOD "codim2_period" "1" Table(CODIM2_POINT.name), Whole, None,
+        "period of its orbit in cycles";
+    CODIM2_MULTIPLIER_REAL "codim2_multiplier_real" "1"
+        TableRow(CODIM2_POINT.name, BRANCH_MULTIPLIER.name), Real, None,
+        "real part of the Floquet multipliers of the period";
+    CODIM2_MULTIPLIER_IMAG "codim2_multiplier_imag" "1"
+        TableRow(CODIM2_POINT.name, BRANCH_MULTIPLIER.name), Real, None,
+        "imaginary part of the Floquet multipliers of the period";
 }
 
 /// The dimensions of the branches, in the order of files.
-pub const OF_BRANCHES: [Entry; 8] = [
+pub const OF_BRANCHES: [Entry; 9] = [
     REQUEST,
     INDEX,
     BRANCH_POINT,
@@ -109,6 +126,7 @@ pub const OF_BRANCHES: [Entry; 8] = [
     SPECIAL_POINT,
     CURVE_INDEX,
     CURVE_POINT,
+    CODIM2_POINT,
 ];
 
 /// The columns of every orbit on a branch that are called after no variable of the cases.

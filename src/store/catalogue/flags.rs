@@ -1,7 +1,7 @@
 //! The names of the categories, and the numbers that stand for them.
 
 use super::entry::Flags;
-use crate::branch::{End, SpecialKind};
+use crate::branch::{Codim2Kind, End, SpecialKind};
 use crate::description::Description;
 use crate::flow::Reason;
 use crate::motion;
@@ -42,6 +42,11 @@ pub fn directions() -> Flags {
 /// What happens at a special point.
 pub fn specials() -> Flags {
     SpecialKind::NAMES.map(|(name, kind)| (kind as i64, name.to_owned())).to_vec()
+}
+
+/// What happens at a point of codimension 2.
+pub fn codim2_kinds() -> Flags {
+    Codim2Kind::NAMES.map(|(name, kind)| (kind as i64, name.to_owned())).to_vec()
 }
 
 /// The parameters of a model by their symbols.

@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
-use super::branches::{BRANCH_CYCLE, BRANCH_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT};
+use super::branches::{
+    BRANCH_CYCLE, BRANCH_POINT, CODIM2_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT,
+};
 use super::entry::{Entry, Extent};
 use super::model::{derived, edges, end, histories, impacts, neutral, section};
 use super::ramps::{RAMP_INDEX, RAMP_POINT, ramp_outputs};
@@ -27,6 +29,8 @@ pub enum Place {
     Special,
     /// The points of the curves.
     Curve,
+    /// Their points of codimension 2.
+    Codim2,
     /// The points of the ramps.
     Ramp,
     /// Where the ramps begin.
@@ -34,13 +38,14 @@ pub enum Place {
 }
 
 impl Place {
-    const ALL: [Place; 8] = [
+    const ALL: [Place; 9] = [
         Place::Attractor,
         Place::Event,
         Place::Request,
         Place::Branch,
         Place::Special,
         Place::Curve,
+        Place::Codim2,
         Place::Ramp,
         Place::RampFirst,
     ];
@@ -54,6 +59,7 @@ impl Place {
             Place::Branch => "branch_",
             Place::Special => "special_",
             Place::Curve => "curve_",
+            Place::Codim2 => "codim2_",
             Place::Ramp => "ramp_",
             Place::RampFirst => "ramp_first_",
         }
@@ -85,6 +91,7 @@ impl Place {
             (Place::Event, _) => Extent::Table(EVENT.name),
             (Place::Request, _) => Extent::Table(REQUEST.name),
             (Place::Curve, _) => Extent::Table(CURVE_POINT.name),
+            (Place::Codim2, _) => Extent::Table(CODIM2_POINT.name),
             (Place::Ramp, _) => Extent::Table(RAMP_POINT.name),
             (Place::RampFirst, _) => Extent::Table(RAMP_INDEX.name),
             (Place::Branch, Extent::CaseRow(_)) => {
@@ -108,6 +115,7 @@ impl Place {
             Place::Branch => "branch",
             Place::Special => "special point",
             Place::Curve => "curve",
+            Place::Codim2 => "point of codimension 2",
             Place::Ramp => "ramp",
             Place::RampFirst => "where the ramp begins",
         };
@@ -120,7 +128,7 @@ impl Place {
         let parameters = self.parameters(model).filter(|_| self != Place::Attractor);
         let mut columns: Vec<Entry> = parameters.collect();
         let of_orbits = matches!(self, Place::Attractor | Place::Branch | Place::Special);
-        if of_orbits || matches!(self, Place::Event | Place::Ramp) {
+        if of_orbits || matches!(self, Place::Event | Place::Codim2 | Place::Ramp) {
             columns.extend(section(model).into_iter().map(|entry| self.of(entry)));
         }
         if of_orbits {

@@ -1,6 +1,6 @@
 //! Synthetic branches for the tests of the file and the figures of branches.
 
-use capsulemap::branch::{Curve, End, SpecialKind};
+use capsulemap::branch::{Codim2, Codim2Kind, Curve, End, SpecialKind};
 use capsulemap::capsule::Output;
 use capsulemap::capsule::branch::{Branch, Found, Point, Special};
 use capsulemap::capsule::description::CAPSULE;
@@ -107,6 +107,19 @@ pub fn bent_branch(count: usize) -> Branch {
     Branch { period: 1, parent: None, points, special: specials, ends: [End::Bound; 2] }
 }
 
+/// One point of codimension 2 of each kind, spread over a curve.
+fn codim2_on(points: &[[f64; 2]]) -> Vec<Codim2> {
+    let kinds = Codim2Kind::NAMES.iter().zip((1..).step_by(3));
+    let points = kinds.map(|((_, kind), after)| Codim2 {
+        kind: *kind,
+        after,
+        parameters: points[after],
+        section: vec![1e-3, 0.1, 0.0],
+        multipliers: [1.0, 0.1, 0.0].map(|re| Complex { re, im: 0.0 }).to_vec(),
+    });
+    points.collect()
+}
+
 /// What the first branch of `STUDY` might lead to.
 pub fn found() -> Found {
     let mut first = bent_branch(121);
@@ -135,9 +148,11 @@ pub fn found() -> Found {
             let second = 1.0 + 0.1 * f64::from(place);
             [at + bend * (second - 4.0) + 0.7 * bend * (second - 4.0) * (second - 4.0), second]
         };
-        let (kind, points) = (first.special[special].kind, (0..=40).map(step).collect());
+        let kind = first.special[special].kind;
+        let points: Vec<[f64; 2]> = (0..=40).map(step).collect();
         let ends = [End::Bound, End::Corner];
-        Curve { kind, through: (0, special), period: 1, points, ends }
+        let codim2 = if special == 0 { codim2_on(&points) } else { Vec::new() };
+        Curve { kind, through: (0, special), period: 1, points, codim2, ends }
     };
     let bends = [2.0, -1.5, 0.8, 2.6, -2.2, 1.2];
     let curves = (0..first.special.len()).zip(bends).map(|(at, bend)| curve(at, bend)).collect();

@@ -2,13 +2,14 @@
 
 use super::across::{Unknowns, across_section};
 use super::arclength::{CurvePoint, Plane, between, corrected, dot, norm, tangent};
+use super::codim2::{Met, met, sum_of_pair};
 use super::corner::is_corner;
-use super::locus::{Locus, LocusPoint, Touch};
+use super::locus::{Locus, LocusPoint, Seen};
 use super::merger::HALF;
 use super::orbits::{Orbits, STEEPEST};
 use super::periodic::{Goal, Periodic, passes};
 use super::step_control::{Advance, Bounds, StepControl};
-use super::{Curve, End, Request, Special, SpecialKind};
+use super::{Codim2, Codim2Kind, Curve, End, Request, Special, SpecialKind};
 use crate::flow::System;
 
 /// A curve begins at its special point to within this, relative to each unknown.
@@ -33,16 +34,30 @@ pub struct Trace<M: System<D>, const D: usize, const W: usize> {
     /// The solutions that were followed, and the special orbits that they stand for.
     points: Vec<[f64; W]>,
     special: Vec<[f64; W]>,
+    /// The points of codimension 2, each after one of these.
+    codim2: Vec<(usize, Met<W>)>,
     ends: [End; 2],
 }
 
 impl<M: System<D>, const D: usize, const W: usize> Trace<M, D, W> {
     /// What is kept of it.
     pub fn curve(&self) -> Curve {
-        let values = self.special.iter();
-        let points = values.map(|at| [D, D + 1].map(|i| at[i] * self.locus.units[i])).collect();
+        let points = self.special.iter().map(|at| self.parameters(at)).collect();
+        let codim2 = self.codim2.iter().map(|(after, met)| Codim2 {
+            kind: met.kind,
+            after: *after,
+            parameters: self.parameters(&met.at),
+            section: (0..D).map(|i| met.at[i] * self.locus.units[i]).collect(),
+            multipliers: met.multipliers.clone(),
+        });
         let (kind, period) = (self.locus.kind, self.locus.family.period);
-        Curve { kind, through: self.through, period, points, ends: self.ends }
+        let codim2 = codim2.collect();
+        Curve { kind, through: self.through, period, points, codim2, ends: self.ends }
+    }
+
+    /// The two parameters of a solution, in their own units.
+    fn parameters(&self, at: &[f64; W]) -> [f64; 2] {
+        [D, D + 1].map(|i| at[i] * self.locus.units[i])
     }
 
     /// Whether it goes through an orbit, from whichever of its section points.
@@ -59,7 +74,13 @@ type Both<const W: usize> = ([f64; W], [f64; W]);
 
 /// Whether special points of a kind are followed as curves.
 pub fn is_followed(kind: SpecialKind) -> bool {
-    matches!(kind, SpecialKind::Fold | SpecialKind::PeriodDoubling | SpecialKind::Grazing)
+    matches!(
+        kind,
+        SpecialKind::Fold
+            | SpecialKind::PeriodDoubling
+            | SpecialKind::NeimarkSacker
+            | SpecialKind::Grazing
+    )
 }
 
 /// The number of the curve in two parameters through a special point of a branch, which is added to
@@ -86,7 +107,7 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
     let free = [request.along, second];
     let mut family = orbits.family.clone();
     family.period = period(orbits, special);
-    let locus = Locus { family, free, units, kind: special.kind, margin: 0.0 };
+    let locus = Locus { family, free, units, kind: special.kind, margin: 0.0, touches_near: None };
     let (locus, start) = begun(locus, special, value)?;
     let known = traces.iter().position(|trace| {
         (trace.locus.kind, trace.locus.period()) == (locus.kind, locus.period())
@@ -99,9 +120,10 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
         .with(D, request.range.map(|end| end / along))
         .with(D + 1, range.map(|end| end / width));
     let control = StepControl::new(bounds, request.longest_step);
-    let (points, ends) = both_directions(&locus, &start, control, request.most_points);
+    let Joined { points, codim2, ends } =
+        both_directions(&locus, &start, control, request.most_points);
     let (points, special) = points.into_iter().unzip();
-    traces.push(Trace { locus, through, points, special, ends });
+    traces.push(Trace { locus, through, points, special, codim2, ends });
     Some(traces.len() - 1)
 }
 
@@ -118,7 +140,7 @@ fn begun<M: System<D>, O, const D: usize, const W: usize>(
         let start = start(&locus, special, second)?;
         Some((locus, start))
     });
-    begun.min_by_key(|(_, start)| start.seen.map_or(0, |touch| touch.impacts))
+    begun.min_by_key(|(_, start)| start.seen.impacts)
 }
 
 /// The period of a special orbit: half that of the branch where it merges in a grazing, and no other orbit lies on its curve.
@@ -153,27 +175,39 @@ fn start<M: System<D>, O, const D: usize, const W: usize>(
     is_near.then_some(CurvePoint { tangent, ..start })
 }
 
+/// A curve from one end to the other.
+struct Joined<const W: usize> {
+    points: Vec<Both<W>>,
+    codim2: Vec<(usize, Met<W>)>,
+    ends: [End; 2],
+}
+
 /// The curve through an orbit from one end to the other, of so many points at most.
 fn both_directions<M: System<D>, const D: usize, const W: usize>(
     locus: &Locus<M, D, W>,
     start: &LocusPoint<W>,
     control: StepControl<W>,
     most: usize,
-) -> (Vec<Both<W>>, [End; 2]) {
+) -> Joined<W> {
     let back = turned(start);
     let goal = Goal::at(locus, &back);
     let (backward, end) = Direction::begun(locus, &back, control).follow(most.div_ceil(2), &goal);
-    let Direction { mut points, last, .. } = backward;
+    let Direction { mut points, mut codim2, last, .. } = backward;
     if end == End::Closed {
-        return (points, [end; 2]);
+        return Joined { points, codim2, ends: [end; 2] };
     }
     // A closed curve that is longer than one half meets the end of that half.
     let left = most + 1 - points.len();
     let goal = Goal::at(locus, &turned(&last));
     let (forward, other_end) = Direction::begun(locus, start, control).follow(left, &goal);
+    let begins = points.len() - 1;
     points.reverse();
     points.extend(forward.points.into_iter().skip(1));
-    (points, if other_end == End::Closed { [other_end; 2] } else { [end, other_end] })
+    codim2.reverse();
+    codim2.iter_mut().for_each(|(after, _)| *after = begins - 1 - *after);
+    codim2.extend(forward.codim2.into_iter().map(|(after, met)| (begins + after, met)));
+    let ends = if other_end == End::Closed { [other_end; 2] } else { [end, other_end] };
+    Joined { points, codim2, ends }
 }
 
 /// A point of a curve with its tangent reversed.
@@ -186,6 +220,8 @@ struct Direction<'l, M: System<D>, const D: usize, const W: usize> {
     locus: &'l Locus<M, D, W>,
     control: StepControl<W>,
     points: Vec<Both<W>>,
+    /// Its points of codimension 2, each after one of these.
+    codim2: Vec<(usize, Met<W>)>,
     /// The last point with its tangent.
     last: LocusPoint<W>,
 }
@@ -195,11 +231,11 @@ impl<'l, M: System<D>, const D: usize, const W: usize> Direction<'l, M, D, W> {
     fn begun(locus: &'l Locus<M, D, W>, start: &LocusPoint<W>, control: StepControl<W>) -> Self {
         let begun = locus.special(start, &Plane::fixing(D + 1, start.at[D + 1]).normal);
         let points = vec![(start.at, begun.unwrap_or(start.at))];
-        Direction { locus, control, points, last: start.clone() }
+        Direction { locus, control, points, codim2: Vec::new(), last: start.clone() }
     }
 
     /// Follows the curve until it ends, closes at `goal` or has `most` points.
-    fn follow(mut self, most: usize, goal: &Goal<W, Option<Touch>>) -> (Self, End) {
+    fn follow(mut self, most: usize, goal: &Goal<W, Seen>) -> (Self, End) {
         while self.points.len() < most {
             if let Some(end) = self.advance(goal) {
                 return (self, end);
@@ -209,13 +245,14 @@ impl<'l, M: System<D>, const D: usize, const W: usize> Direction<'l, M, D, W> {
     }
 
     /// Adds the next point, unless the step is halved, and says why the curve ends if it does.
-    fn advance(&mut self, goal: &Goal<W, Option<Touch>>) -> Option<End> {
+    fn advance(&mut self, goal: &Goal<W, Seen>) -> Option<End> {
         let (next, at_bound) = match self.control.advance(self.locus, &self.last) {
             Advance::Inside(next) => (next, false),
             Advance::AtBound(next) => (next, true),
             Advance::Nowhere => return self.beyond_section(),
         };
         if let Some(goal) = goal.met(self.locus, [&self.last, &next], self.points.len()) {
+            self.note(&goal, false);
             self.points.push(self.with_special(&goal, false));
             self.last = goal;
             return Some(End::Closed);
@@ -232,6 +269,9 @@ impl<'l, M: System<D>, const D: usize, const W: usize> Direction<'l, M, D, W> {
                 self.control.next = 0.5 * step;
                 return None;
             }
+        }
+        if let Some(end) = self.note(&next, false) {
+            return Some(end);
         }
         if step > ONE {
             self.points.push(self.with_special(&next, at_bound));
@@ -252,9 +292,32 @@ impl<'l, M: System<D>, const D: usize, const W: usize> Direction<'l, M, D, W> {
             Some(Advance::AtBound(next)) => (next, true),
             _ => return Some(dead_end(self.locus, &self.last)),
         };
+        self.note(&next, true);
         self.points.push(self.with_special(&next, at_bound));
         self.last = next;
         at_bound.then_some(End::Bound)
+    }
+
+    /// Takes note of the points of codimension 2 before the next point, across which the section point may jump, and says why the
+    /// curve ends at one of them if it does: where the pair of a Neimark-Sacker point becomes real.
+    fn note(&mut self, next: &LocusPoint<W>, jumps: bool) -> Option<End> {
+        let after = self.points.len() - 1;
+        let mut met = met(self.locus, [&self.last, next], jumps);
+        let is_torus = self.locus.kind == SpecialKind::NeimarkSacker;
+        if !is_torus || sum_of_pair::<M, D, W>(next).abs() < 2.0 {
+            self.codim2.extend(met.into_iter().map(|it| (after, it)));
+            return None;
+        }
+        let is_resonance =
+            |it: &Met<W>| matches!(it.kind, Codim2Kind::Resonance1 | Codim2Kind::Resonance2);
+        let place = met.iter().position(is_resonance);
+        met.truncate(place.map_or(met.len(), |place| place + 1));
+        let resonance = place.and_then(|_| met.last()).cloned();
+        self.codim2.extend(met.into_iter().map(|it| (after, it)));
+        let Some(Met { at, point, .. }) = resonance else { return Some(End::Stopped) };
+        self.points.push((at, at));
+        self.last = point;
+        Some(End::StrongResonance)
     }
 
     /// A point with the special orbit that it stands for, which lies at the bound, too, where the point does.

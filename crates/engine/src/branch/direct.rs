@@ -6,8 +6,9 @@ use crate::orbit::passage::{Integrator, ReturnRequest};
 use crate::orbit::return_map::Cycles;
 
 use super::arclength::ROUNDING;
+use super::bialternate::torus;
 use super::family::{counterpart, cyclic};
-use super::orbits::{STEEPEST, shifted, torus};
+use super::orbits::{STEEPEST, shifted};
 use super::periodic::HALVES;
 use super::scales::units;
 use super::segment::Along;

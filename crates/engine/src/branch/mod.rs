@@ -3,6 +3,8 @@
 mod across;
 mod arc;
 mod arclength;
+mod bialternate;
+mod codim2;
 mod corner;
 mod curve;
 mod direct;
@@ -113,6 +115,71 @@ impl SpecialKind {
     ];
 }
 
+/// What happens at a point of codimension 2, where a curve in two parameters meets another or changes what it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Codim2Kind {
+    /// Two folds meet on a curve of folds, and both vanish.
+    Cusp = 0,
+    /// One multiplier is +1 and one is -1.
+    FoldFlip,
+    /// One multiplier is +1 and a complex pair lies on the unit circle.
+    FoldNeimarkSacker,
+    /// One multiplier is -1 and a complex pair lies on the unit circle.
+    FlipNeimarkSacker,
+    /// Two multipliers are +1: strong resonance 1:1.
+    Resonance1,
+    /// Two multipliers are -1: strong resonance 1:2.
+    Resonance2,
+    /// A pair of multipliers are third roots of one: strong resonance 1:3.
+    Resonance3,
+    /// A pair of multipliers are fourth roots of one: strong resonance 1:4.
+    Resonance4,
+    /// An extremum touches its surface on an orbit with the multiplier +1.
+    FoldGrazing,
+    /// An extremum touches its surface on an orbit with the multiplier -1.
+    DoublingGrazing,
+    /// An extremum touches its surface on an orbit with a complex pair of multipliers on the unit circle.
+    NeimarkSackerGrazing,
+    /// Two extrema touch their surfaces.
+    DoubleGrazing,
+    /// A test function of the curve changes its sign, and where it does could not be located.
+    Unresolved,
+}
+
+impl Codim2Kind {
+    /// Every kind by its name in files, in the order of declaration.
+    pub const NAMES: [(&str, Codim2Kind); 13] = [
+        ("cusp", Codim2Kind::Cusp),
+        ("fold-flip", Codim2Kind::FoldFlip),
+        ("fold-neimark-sacker", Codim2Kind::FoldNeimarkSacker),
+        ("flip-neimark-sacker", Codim2Kind::FlipNeimarkSacker),
+        ("resonance-1-1", Codim2Kind::Resonance1),
+        ("resonance-1-2", Codim2Kind::Resonance2),
+        ("resonance-1-3", Codim2Kind::Resonance3),
+        ("resonance-1-4", Codim2Kind::Resonance4),
+        ("fold-grazing", Codim2Kind::FoldGrazing),
+        ("doubling-grazing", Codim2Kind::DoublingGrazing),
+        ("neimark-sacker-grazing", Codim2Kind::NeimarkSackerGrazing),
+        ("double-grazing", Codim2Kind::DoubleGrazing),
+        ("unresolved", Codim2Kind::Unresolved),
+    ];
+}
+
+/// A point of codimension 2 on a curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Codim2 {
+    /// What happens there.
+    pub kind: Codim2Kind,
+    /// It lies between this point of the curve and the next; of an unresolved one, what is told is of one of the two.
+    pub after: usize,
+    /// Values of the followed and of the second parameter.
+    pub parameters: [f64; 2],
+    /// A section point of the orbit.
+    pub section: Vec<f64>,
+    /// Floquet multipliers of the period, the largest magnitude first; at a grazing those on the side from which it is followed.
+    pub multipliers: Vec<Complex>,
+}
+
 /// A special point of a branch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Special<O, P> {
@@ -148,11 +215,13 @@ pub enum End {
     Equilibrium,
     /// Orbits of an autonomous system take as long there as a return is waited for.
     LongestWait,
+    /// The complex pair of a curve of Neimark-Sacker points becomes real there: a strong resonance 1:1 or 1:2.
+    StrongResonance,
 }
 
 impl End {
     /// Every reason by its name in files, in the order of declaration.
-    pub const NAMES: [(&str, End); 9] = [
+    pub const NAMES: [(&str, End); 10] = [
         ("edge-of-range", End::Bound),
         ("closed", End::Closed),
         ("half-period", End::Merged),
@@ -162,6 +231,7 @@ impl End {
         ("stopped", End::Stopped),
         ("equilibrium", End::Equilibrium),
         ("longest-wait", End::LongestWait),
+        ("strong-resonance", End::StrongResonance),
     ];
 }
 
@@ -191,6 +261,8 @@ pub struct Curve {
     pub period: u64,
     /// Values of the followed and of the second parameter, in order.
     pub points: Vec<[f64; 2]>,
+    /// Its points of codimension 2, in order.
+    pub codim2: Vec<Codim2>,
     /// Why it ends at its first point and at its last.
     pub ends: [End; 2],
 }

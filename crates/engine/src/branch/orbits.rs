@@ -8,6 +8,7 @@ use crate::orbit::return_map::Cycles;
 
 use super::SpecialKind;
 use super::arclength::{CurvePoint, EXACT, Equations, Linear};
+use super::bialternate::torus;
 use super::family::{Family, cyclic};
 use super::periodic::Periodic;
 
@@ -43,8 +44,6 @@ const LONGEST: f64 = 0.999;
 /// An event so near to the section [cycles] may be met on one side of it by the orbit's point and on the other by its return, which
 /// differ by rounding, as where a capsule at rest has a velocity of 1e-20.
 const AT_SECTION: f64 = 1e-4;
-/// Pairs of two of eight coordinates.
-const MOST_PAIRS: usize = 28;
 
 /// What is seen of an orbit.
 #[derive(Debug, Clone)]
@@ -249,25 +248,6 @@ impl<E: Event, const D: usize, const U: usize> Seen<E, D, U> {
     pub fn impacts(&self) -> usize {
         self.events.iter().filter(|event| event.is_impact()).count()
     }
-}
-
-/// The product of one less each product of two multipliers of a return map, which vanishes where a complex pair
-/// passes the unit circle: det(C - I), C the second compound of its derivative.
-pub fn torus<const D: usize>(jacobian: &Matrix<D>) -> f64 {
-    let j = jacobian;
-    let pairs: Vec<(usize, usize)> = (0..D).flat_map(|a| (a + 1..D).map(move |b| (a, b))).collect();
-    // Places beyond the pairs hold ones on the diagonal, which do not change the determinant.
-    let mut compound = [[0.0; MOST_PAIRS]; MOST_PAIRS];
-    for (row, of_row) in compound.iter_mut().enumerate() {
-        of_row[row] = 1.0;
-    }
-    for (row, &(a, b)) in pairs.iter().enumerate() {
-        for (column, &(c, d)) in pairs.iter().enumerate() {
-            compound[row][column] = j[a][c] * j[b][d] - j[a][d] * j[b][c];
-        }
-        compound[row][row] -= 1.0;
-    }
-    determinant(compound)
 }
 
 /// A matrix with `by` added to its diagonal.

@@ -5,6 +5,7 @@ use crate::flow::{Event, System};
 use super::SpecialKind;
 use super::arc::{Arc, Placed};
 use super::arclength::{between, norm};
+use super::bialternate::turns;
 use super::grazing::touching;
 use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 
@@ -12,8 +13,6 @@ use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 pub(super) const CHANGES: usize = 16;
 /// Changes of the event sequence that are no farther apart are one.
 const ONE_PLACE: f64 = 1e-10;
-/// A pair of multipliers is so near to the unit circle where it is found to pass it.
-const NEAR: f64 = 1e-5;
 /// A located orbit is known along the arc to this share of it: the rounding of a test function.
 pub(super) const RESOLVED: f64 = 1e-12;
 
@@ -61,7 +60,7 @@ pub fn special_orbits<M: System<D>, const D: usize, const U: usize>(
         .filter(|kind| test(*kind, from) * test(*kind, to) < 0.0)
         .filter_map(|kind| {
             let ((distance, point), apart) = arc.zero([&ends[0], &ends[1]], |it| test(kind, it))?;
-            let holds = kind != SpecialKind::NeimarkSacker || turns(&point.seen);
+            let holds = kind != SpecialKind::NeimarkSacker || turns(&point.seen.multipliers());
             let (uncertainty, is_stable_beyond) = (apart + rounding, false);
             holds.then_some(SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond })
         })
@@ -71,13 +70,6 @@ pub fn special_orbits<M: System<D>, const D: usize, const U: usize>(
     }
     found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
     found
-}
-
-/// Whether the pair of multipliers whose product is nearest to one is complex.
-pub(super) fn turns<E: Event, const D: usize, const U: usize>(seen: &Seen<E, D, U>) -> bool {
-    let multipliers = seen.multipliers();
-    let complex = multipliers.iter().filter(|multiplier| multiplier.im != 0.0);
-    complex.map(|multiplier| (multiplier.abs() - 1.0).abs()).any(|away| away < NEAR)
 }
 
 /// An orbit with its place on the arc.

@@ -5,12 +5,11 @@ use crate::flow::{Event, System};
 use super::SpecialKind;
 use super::arc::{Arc, NARROW};
 use super::arclength::{between, dot, norm};
+use super::bialternate::turns;
 use super::family::counterpart;
 use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 use super::periodic::Periodic;
-use super::special::{
-    CHANGES, Change, OnArc, RESOLVED, SMOOTH, Sought, special_orbits, test, turns,
-};
+use super::special::{CHANGES, Change, OnArc, RESOLVED, SMOOTH, Sought, special_orbits, test};
 
 /// The orbit in the middle of a step is so near to the cubic through its ends, relative to the step.
 const BENT: f64 = 0.02;
@@ -248,7 +247,7 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
             let (ends, size) = (part.half(half), self.range());
             let ((distance, point), apart) = self.arc.zero(ends, |it| test(kind, it))?;
             let is_told = match kind {
-                SpecialKind::NeimarkSacker => turns(&point.seen),
+                SpecialKind::NeimarkSacker => turns(&point.seen.multipliers()),
                 SpecialKind::Fold => self.is_known(ends, &point),
                 _ => true,
             };

@@ -7,6 +7,7 @@ mod branch_curves;
 mod branch_ends;
 mod certificates;
 mod closed_forms;
+mod codim2;
 mod contract;
 mod den_hartog;
 mod derivatives;
