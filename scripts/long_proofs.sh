@@ -10,6 +10,9 @@ program=target/release/capsulemap
 echo "== a hundred runs, killed at random and resumed, end in the same bytes"
 KILLS=100 cargo test --release --test it -- runs_that_are_killed --nocapture
 
+echo "== all exponents against the divergence of the field over 200 cases of each kind, and Duffing's over 60 000 cycles"
+LONG_PROOFS=1 cargo test --release --test it -p capsulemap-engine -p capsulemap-text -- volumes divergence duffings_exponents --nocapture
+
 echo "== 20 000 periods, computed again with a tenth of the tolerances and ten times the budget"
 CASES=20000 cargo test --release --test it -- certificates --nocapture
 

@@ -20,6 +20,7 @@ pub(crate) mod layout;
 mod named_model;
 pub mod named_system;
 mod parameter_table;
+mod protocol_file;
 mod refine_file;
 pub mod refinement;
 mod start_file;

@@ -16,4 +16,7 @@ mod outputs;
 mod random_texts;
 mod sampled;
 mod six;
+mod spectra;
 mod units;
+#[path = "../../../engine/tests/it/volumes.rs"]
+mod volumes;
