@@ -35,6 +35,7 @@ mod observers;
 mod oscillators;
 mod over_folds;
 mod paper;
+mod parting;
 mod passages;
 mod prescribed;
 mod random_branches;
