@@ -13,6 +13,9 @@ KILLS=100 cargo test --release --test it -- runs_that_are_killed --nocapture
 echo "== eight processes that share a study, of each of three studies 60 killed at random, end in the same bytes"
 CLAIM_KILLS=60 cargo test --release --test it -- killed_at_random_end_in_the_file_of_one --nocapture
 
+echo "== all exponents against the divergence of the field over 200 cases of each kind, and Duffing's over 60 000 cycles"
+LONG_PROOFS=1 cargo test --release --test it -p capsulemap-engine -p capsulemap-text -- volumes divergence duffings_exponents --nocapture
+
 echo "== 20 000 periods, computed again with a tenth of the tolerances and ten times the budget"
 CASES=20000 cargo test --release --test it -- certificates --nocapture
 

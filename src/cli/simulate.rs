@@ -18,7 +18,7 @@ use crate::description::{Description, Parameter, Parameters, Remark, State};
 use crate::explore::case_json;
 use crate::motion::{Case, SimulationSize};
 use crate::of::{all_models, default_model, model_called, model_of, settle_case};
-use crate::orbit::Protocol;
+use crate::orbit::{Exponents, Protocol};
 use crate::quantity::printable::printable;
 use crate::run::Machine;
 use crate::study::document::{unknown, unknown_of};
@@ -42,6 +42,7 @@ pub struct Simulate {
     /// Take a case of this study, or of the study in this file of results, with its parameters, its start and the study's protocol.
     #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2",
         "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles", "max_steps",
+        "exponents",
         "friction_switching", "resistance", "drive", "drive_reaction", "release"])]
     study: Option<PathBuf>,
     /// Its number, counted from 0 with the last axis fastest, as in the reports of failures.
@@ -87,6 +88,9 @@ pub struct Simulate {
     /// Steps that all of it may take, else the case fails.
     #[arg(long, default_value_t = Protocol::default().max_steps, value_parser = clap::value_parser!(u64).range(1..))]
     max_steps: u64,
+    /// Lyapunov exponents that are computed: the largest, or as many as the section has coordinates with the Kaplan-Yorke dimension.
+    #[arg(long, value_parser = named(&Exponents::NAMES), default_value = "largest")]
+    exponents: Exponents,
     /// Reading of the switching between stick and slip.
     #[arg(long, value_parser = named(&Switching::NAMES), default_value = "filippov")]
     friction_switching: Switching,
@@ -227,6 +231,7 @@ impl Simulate {
         let protocol = Protocol {
             max_cycles: self.max_cycles,
             max_steps: self.max_steps,
+            exponents: self.exponents,
             ..Protocol::with_tolerance(self.tolerance)
         };
         let case = Case { parameters, start, start_phase, section_phase };

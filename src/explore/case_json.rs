@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::description::{Description, Output, Parameters, State};
+use crate::description::{Description, Kept, Output, Parameters, State};
 use crate::motion::{Event, Orbit, Sample, Simulation};
 use crate::of::{default_model, model_of};
 use crate::orbit::{Certificate, Outcome, Proof};
@@ -88,7 +88,11 @@ fn orbit_json(parameters: &Parameters, orbit: &Orbit) -> Value {
 pub fn told(parameters: &Parameters, orbit: &Orbit) -> impl Iterator<Item = (Output, f64)> + use<> {
     let has_parts = parameters.have_optional_parts();
     let all: Vec<(Output, f64)> = orbit.outputs.each().collect();
-    all.into_iter().filter(move |(it, _)| has_parts || !it.is_optional())
+    all.into_iter().filter(move |(it, value)| match it.kept() {
+        Kept::Always => true,
+        Kept::WithParts => has_parts,
+        Kept::WithExponents | Kept::WithMeanError => !value.is_nan(),
+    })
 }
 
 /// What the numbers of an orbit do not say by themselves.

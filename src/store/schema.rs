@@ -11,6 +11,7 @@ use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, Values, Variable, drawn, provenance};
 use crate::motion::Orbit;
 use crate::of::default_model;
+use crate::orbit::Exponents;
 use crate::orbit::matrix::Complex;
 use crate::run::Record;
 use crate::study::{CaseSet, Coordinate, Study};
@@ -120,9 +121,12 @@ pub fn numbers_of_case(study: &Study) -> BTreeMap<String, usize> {
 }
 
 /// How the cases were integrated, which the file says even where the study left it to the program.
-fn protocol(study: &Study) -> [(String, String); 9] {
+fn protocol(study: &Study) -> impl Iterator<Item = (String, String)> {
     let protocol = &study.protocol;
-    [
+    let asked = (protocol.exponents != Exponents::Largest)
+        .then(|| ("exponents", protocol.exponents.name().to_owned()));
+    let wanted = protocol.mean_error.map(|error| ("mean_error", format!("{error:e}")));
+    let always = [
         ("tolerance", format!("{:e}", protocol.tolerance)),
         ("recurrence", format!("{:e}", protocol.recurrence)),
         ("accelerate", protocol.accelerate.to_string()),
@@ -132,8 +136,9 @@ fn protocol(study: &Study) -> [(String, String); 9] {
         ("measured_cycles", protocol.measured_cycles.to_string()),
         ("exponent_cycles", protocol.exponent_cycles.to_string()),
         ("exponent_error", format!("{:e}", protocol.exponent_error)),
-    ]
-    .map(|(key, value)| (format!("{OF_PROTOCOL}{key}"), value))
+    ];
+    let all = always.into_iter().chain(asked).chain(wanted);
+    all.map(|(key, value)| (format!("{OF_PROTOCOL}{key}"), value))
 }
 
 /// The orbits of some cases of a study.

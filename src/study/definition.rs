@@ -9,11 +9,11 @@ use super::{
     Axis, CaseSet, Continuation, Coordinate, Direction, Drawing, Grid, Inherit, Ramp, Refine,
     Refinement,
 };
-use crate::description::{Description, Output, Parameters, State};
+use crate::description::{Description, Kept, Output, Parameters, State};
 use crate::model::Model;
 use crate::motion::Case;
 use crate::of::{default_model, model_of};
-use crate::orbit::Protocol;
+use crate::orbit::{Exponents, Protocol};
 
 /// What to compute.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,7 +77,7 @@ impl Study {
             protocol: Protocol::default(),
             early_decision: true,
             refine: None,
-            outputs: usual_outputs(&Parameters::of(model)),
+            outputs: usual_outputs(&Parameters::of(model), &Protocol::default()),
             branches: Vec::new(),
             ramps: Vec::new(),
             drawings: Vec::new(),
@@ -216,8 +216,15 @@ pub(super) fn with_parts(base: &Parameters, varied: &[Coordinate]) -> Parameters
     parameters.fold(base.clone(), Parameters::with_part)
 }
 
-/// The outputs of studies that name none: those that tell more than zero of motions with these parameters.
-pub(super) fn usual_outputs(parameters: &Parameters) -> Vec<Output> {
+/// The outputs of studies that name none: those that tell more than zero of motions with these parameters, and what the protocol
+/// asks for.
+pub(super) fn usual_outputs(parameters: &Parameters, protocol: &Protocol) -> Vec<Output> {
     let has_parts = parameters.have_optional_parts();
-    parameters.model().outputs().filter(|it| has_parts || !it.is_optional()).collect()
+    let is_kept = |output: &Output| match output.kept() {
+        Kept::Always => true,
+        Kept::WithParts => has_parts,
+        Kept::WithExponents => protocol.exponents == Exponents::All,
+        Kept::WithMeanError => protocol.mean_error.is_some(),
+    };
+    parameters.model().outputs().filter(is_kept).collect()
 }

@@ -23,6 +23,7 @@ pub mod named_system;
 mod normal;
 pub mod own_outputs;
 mod parameter_table;
+mod protocol_file;
 pub mod ramp;
 mod ramp_file;
 mod refine_file;

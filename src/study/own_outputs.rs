@@ -4,7 +4,8 @@ use capsulemap_text::own::{OUTPUTS, OWN, of_table, with_own};
 
 use super::definition::usual_outputs;
 use super::document::{Entry, Fault, Faults, Table};
-use crate::description::{Description, Output, Parameters};
+use crate::description::{Description, Kept, Output, Parameters};
+use crate::orbit::{Exponents, Protocol};
 
 /// The key of a study that has the table of those that it defines, as a path.
 pub const KEY: &str = "outputs.own";
@@ -46,8 +47,12 @@ pub fn check_known(name: &str, model: &'static Description, table: &str) -> Resu
 }
 
 /// The outputs that a study keeps.
-pub(super) fn read_outputs(top: &Table<'_, '_>, parameters: &Parameters) -> Vec<Output> {
-    let Some(entry) = kept(top) else { return usual_outputs(parameters) };
+pub(super) fn read_outputs(
+    top: &Table<'_, '_>,
+    parameters: &Parameters,
+    protocol: &Protocol,
+) -> Vec<Output> {
+    let Some(entry) = kept(top) else { return usual_outputs(parameters, protocol) };
     let model = top.model();
     let names: Vec<(&str, Output)> =
         model.outputs().map(|output| (output.name(), output)).collect();
@@ -56,6 +61,12 @@ pub(super) fn read_outputs(top: &Table<'_, '_>, parameters: &Parameters) -> Vec<
         match entry.one_of("output", &names) {
             Some(output) if outputs.contains(&output) => {
                 entry.fault(format!("{} is given twice", entry.shown()))
+            }
+            Some(output)
+                if output.kept() == Kept::WithExponents
+                    && protocol.exponents == Exponents::Largest =>
+            {
+                entry.fault("is computed where [protocol] has exponents = \"all\"");
             }
             output => outputs.extend(output),
         }

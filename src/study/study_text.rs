@@ -12,7 +12,7 @@ use super::{
 };
 use crate::description::{Parameter, Parameters, Presence, State};
 use crate::of::default_model;
-use crate::orbit::{HistorySpan, Protocol};
+use crate::orbit::{Exponents, HistorySpan, Protocol};
 
 impl Study {
     /// The study as the text of a study file, with all digits and in SI units.
@@ -270,6 +270,13 @@ fn write_protocol(document: &mut Document, protocol: &Protocol) {
     document.put("measured_cycles", protocol.measured_cycles);
     document.put("exponent_cycles", protocol.exponent_cycles);
     document.put("exponent_error", number(protocol.exponent_error));
+    // What is asked for by few is written where it is, so that the texts of other studies stay.
+    if protocol.exponents != Exponents::Largest {
+        document.put("exponents", text(protocol.exponents.name()));
+    }
+    if let Some(error) = protocol.mean_error {
+        document.put("mean_error", number(error));
+    }
     document.put("points", protocol.points);
     document.put("impact_points", protocol.impact_points);
     if let Some(HistorySpan { cycles, per_cycle, from_start }) = protocol.history {

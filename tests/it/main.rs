@@ -1,5 +1,6 @@
 //! The tests of the program and its library, as their users run them; those of the engine are in `crates/engine/tests`.
 
+mod all_exponents;
 mod attractors;
 mod basin_measures;
 mod basin_settling;

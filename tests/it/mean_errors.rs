@@ -1,9 +1,10 @@
 //! Standard errors of the means of motions that do not repeat.
 
 use capsulemap::capsule::mean_errors::ERRORS;
-use capsulemap::capsule::{Parameters, State, settle};
+use capsulemap::capsule::{Output, Parameters, State, settle, settle_case};
 use capsulemap::orbit::{Outcome, Protocol};
 use capsulemap::store;
+use capsulemap::study::Study;
 use serde_json::Value;
 
 use super::program::WorkDir;
@@ -69,6 +70,32 @@ fn the_mean_of_a_periodic_orbit_has_no_error() {
     let orbit = settle(&Parameters::default(), 0.0, State::default(), &Protocol::default());
     assert_eq!(orbit.outcome, Outcome::Periodic);
     assert!(ERRORS.iter().all(|output| orbit.outputs[*output] == 0.0));
+}
+
+#[test]
+fn a_mean_is_measured_until_it_is_known_as_well_as_wanted_or_the_steps_are_spent() {
+    let study = Study::parse("s.toml", &study(128)).expect("a study");
+    let case = study.case(2);
+    let settled = |protocol: Protocol| {
+        let orbit = settle_case(&case, &Protocol { max_cycles: 200, ..protocol });
+        assert_eq!(orbit.outcome, Outcome::Chaotic);
+        let [speed, error, exponent] =
+            [Output::ProgressionSpeed, Output::ProgressionSpeedError, Output::LyapunovExponent]
+                .map(|output| orbit.outputs[output]);
+        (speed, error, exponent)
+    };
+    let usual = settled(Protocol::default());
+    let long = settled(Protocol { measured_cycles: 64 * 128, ..Protocol::default() });
+    let relative = |(speed, error, _): (f64, f64, f64)| error / speed.abs();
+    let wanted = relative(usual) / 3.0;
+    let known = settled(Protocol { mean_error: Some(wanted), ..Protocol::default() });
+    assert!(relative(known) <= wanted, "{known:?} {wanted}");
+    assert!((known.0 - long.0).abs() < 4.0 * known.1.hypot(long.1), "{known:?} {long:?}");
+    assert_eq!(known.2, usual.2);
+    // Two hundred cycles to settle, 128 to be measured, those of the exponent, and a few more.
+    let protocol = Protocol { mean_error: Some(1e-5), max_steps: 400_000, ..Protocol::default() };
+    let spent = settled(protocol);
+    assert!(relative(spent) > 1e-5 && spent.1 < usual.1, "{spent:?} {usual:?}");
 }
 
 fn speed(of: &Value) -> f64 {

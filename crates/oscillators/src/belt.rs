@@ -105,6 +105,8 @@ pub static MASS_ON_BELT: Description = Description {
         event_counts: &[],
         exponent: 2,
         exponent_error: 3,
+        spectrum: None,
+        gain_error: None,
         excluded_period: 4,
         defect: 5,
         section_residual: 6,

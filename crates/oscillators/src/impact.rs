@@ -123,6 +123,8 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         event_counts: &[],
         exponent: 1,
         exponent_error: 2,
+        spectrum: None,
+        gain_error: None,
         excluded_period: 3,
         defect: 4,
         section_residual: 5,

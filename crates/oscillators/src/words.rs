@@ -1,7 +1,7 @@
 //! Descriptions of what has no unit.
 
 use capsulemap_models::description::{
-    Description, Output, OutputDescription, Outputs, ParameterDescription, Presence,
+    Description, Kept, Output, OutputDescription, Outputs, ParameterDescription, Presence,
 };
 use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
 
@@ -32,7 +32,7 @@ pub const fn output(
     (name, tag): (&'static str, &'static str),
     meaning: &'static str,
 ) -> OutputDescription {
-    OutputDescription { quantity: number(name, meaning), tag, is_smooth: false, is_optional: false }
+    OutputDescription { quantity: number(name, meaning), tag, is_smooth: false, kept: Kept::Always }
 }
 
 /// The outputs of a model with these values, in the order of its description.

@@ -12,11 +12,22 @@ export function complex([re, im]) {
   return im === 0 ? short(re, 4) : `${short(re, 4)} ${im < 0 ? "−" : "+"} ${short(Math.abs(im), 4)} i`;
 }
 
+/** An output of an orbit with its standard error where that is above zero; nothing is below a rate that is minus infinity, as of a direction that is lost. */
+function withError(orbit, it, none) {
+  const value = orbit[it.name], error = orbit[it.error];
+  if (value === null && none) return none;
+  return error > 0 ? `${shown(value, it)} ± ${short(error * it.factor, 2)}` : shown(value, it);
+}
+
 /** The key numbers of motions, each a column with its heading; a dash stands where there is no value. */
 export function keyNumbers(motions) {
   const orbits = motions.map(({ it }) => it.simulate.orbit);
   const rows = [["Motion", ...orbits.map((it) => it.outcome)], ["Period (cycles)", ...orbits.map((it) => (it.period ? String(it.period) : "–"))]];
-  for (const it of model.key_outputs) rows.push([it.label, ...orbits.map((orbit) => shown(orbit[it.name], it))]);
+  for (const it of model.key_outputs) rows.push([it.label, ...orbits.map((orbit) => withError(orbit, it))]);
+  for (const it of model.spectrum) {
+    // Only of motions of which all exponents are asked for.
+    if (orbits.some((orbit) => orbit[it.name] !== undefined)) rows.push([it.label, ...orbits.map((orbit) => withError(orbit, it, "−∞"))]);
+  }
   const most = Math.max(0, ...orbits.map((it) => (it.multipliers || []).length));
   for (let i = 0; i < most; i++) rows.push([`Multiplier ${i + 1}`, ...orbits.map((it) => (it.multipliers?.[i] ? complex(it.multipliers[i]) : "–"))]);
   const head = ["Key numbers", ...motions.map(({ name }) => name)];

@@ -83,7 +83,8 @@ fn model_json(explored: &Explored) -> Value {
         "surface": model.impact_surface().map(|it| shown_json(explored, it.symbol())),
         "meets_surface": model.signal_of_coordinate(0).map(|it| it.name()),
         "costs": all_shown_json(explored, costs(explored).into_iter().map(Output::name)),
-        "key_outputs": all_shown_json(explored, model.key_outputs().map(Output::name)),
+        "key_outputs": with_errors_json(explored, model.key_outputs()),
+        "spectrum": with_errors_json(explored, model.spectrum()),
         "main_output": shown_json(explored, model.main_output().name()),
     })
 }
@@ -91,6 +92,16 @@ fn model_json(explored: &Explored) -> Value {
 /// How figures show the quantities of these names.
 fn all_shown_json<'a>(explored: &Explored, names: impl IntoIterator<Item = &'a str>) -> Vec<Value> {
     names.into_iter().map(|name| shown_json(explored, name)).collect()
+}
+
+/// How figures show outputs, with the names of their standard errors.
+fn with_errors_json(explored: &Explored, outputs: impl Iterator<Item = Output>) -> Vec<Value> {
+    let with_error = |output: Output| {
+        let mut told = shown_json(explored, output.name());
+        told["error"] = json!(explored.model().error_of(output).map(Output::name));
+        told
+    };
+    outputs.map(with_error).collect()
 }
 
 /// What motions cost, as far as the file has it or, of the power, what it follows from; none where it does not have what they gain.

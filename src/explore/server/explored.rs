@@ -126,6 +126,7 @@ impl Explored {
         Protocol {
             max_cycles: own.max_cycles,
             max_steps: own.max_steps,
+            exponents: own.exponents,
             ..Protocol::with_tolerance(own.tolerance)
         }
     }

@@ -75,6 +75,7 @@ pub fn linearised<M: System<D>, const D: usize>(
             units: [1.0; D],
             cycles: Cycles { count: 1, tolerance: along.tolerance },
             watched: true,
+            directions: None,
         });
         let passage = followed.ok()?;
         let (end, next) = (passage.end, points[(i + 1) % points.len()]);

@@ -178,6 +178,7 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<'_, M
             units: std::array::from_fn(|i| self.units[i]),
             cycles: Cycles { count: *period, tolerance: *tolerance },
             watched: true,
+            directions: None,
         })?;
         let (mut residual, mut rows, mut jacobian) = ([0.0; U], [[0.0; U]; U], [[0.0; D]; D]);
         let moved = system.metric().difference(&passage.end, &point);

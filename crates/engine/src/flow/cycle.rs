@@ -85,13 +85,25 @@ pub fn cycle<L: Lane, S: Switched<L>>(
     system: &S,
     motion: &mut Motion<L, S>,
     step: &mut Step<L, S>,
-    (most, tolerance): (u64, f64),
+    budget: (u64, f64),
     mut see: impl FnMut(&Step<L, S>),
+) -> Result<L, Reason> {
+    cycle_changed_by(system, motion, step, budget, |_, step| see(step))
+}
+
+/// The same, where the motion may be changed after each step.
+#[inline]
+pub fn cycle_changed_by<L: Lane, S: Switched<L>>(
+    system: &S,
+    motion: &mut Motion<L, S>,
+    step: &mut Step<L, S>,
+    (most, tolerance): (u64, f64),
+    mut change: impl FnMut(&mut Motion<L, S>, &Step<L, S>),
 ) -> Result<L, Reason> {
     let period = system.period();
     for _ in 0..most {
         motion.single_step(system, period, tolerance, step);
-        see(step);
+        change(motion, step);
         if let Some(breakdown) = motion.breakdown(system, step, 0) {
             return Err(breakdown.into());
         }

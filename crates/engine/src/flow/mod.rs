@@ -17,7 +17,7 @@ mod own_system;
 mod taylor;
 
 pub use breakdown::Breakdown;
-pub use cycle::{Reason, STEPS_PER_CYCLE, cycle};
+pub use cycle::{Reason, STEPS_PER_CYCLE, cycle, cycle_changed_by};
 pub use metric::Metric;
 pub use motion::Motion;
 pub use observer::Observer;

@@ -59,6 +59,12 @@ pub trait System<const D: usize>: Clone + PartialEq + Debug + Send + Sync + 'sta
     /// An observer that has seen nothing, and keeps up to so many points of whatever it notes.
     fn observer(&self, points: usize) -> Self::Observer;
 
+    /// What a motion has gained so far, a sum whose mean tells how long a motion is measured that does not repeat
+    /// (`Protocol::mean_error`); none of systems that gain nothing.
+    fn gained(_observed: &Self::Observer) -> Option<f64> {
+        None
+    }
+
     /// Whether a parameter may have this value.
     fn admits(&self, _parameter: Self::Parameter, value: f64) -> bool {
         value.is_finite()

@@ -14,6 +14,11 @@ const CERTAINTY: f64 = 5.0;
 /// Neighbours that part steadily are e to this power farther apart in the end; where the motion is regular
 /// the distance grows no faster than time, and never gets so far.
 const GROWTH: f64 = 12.0;
+/// The rate [1/s] at which neighbours part at most in so long a time [s] where a motion is regular.
+pub(super) fn regular_rate(time: f64) -> f64 {
+    GROWTH / time
+}
+
 /// Whether neighbours part is looked at after each so many cycles.
 const LOOK: usize = 128;
 /// Averages over the two halves of a regular motion agree this well, relative to the motion.

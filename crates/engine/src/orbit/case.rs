@@ -2,7 +2,7 @@
 
 use super::matrix::Complex;
 use super::protocol::Outcome;
-use super::{Certificate, Exponent, Failure};
+use super::{Certificate, Exponent, Failure, Spectrum};
 use crate::flow::System;
 
 /// One case.
@@ -35,6 +35,8 @@ pub struct Orbit<S, O, const D: usize> {
     pub certificate: Certificate<[f64; D]>,
     /// Its largest Lyapunov exponent, where it is known.
     pub exponent: Exponent,
+    /// All of them, where they are asked for and known.
+    pub spectrum: Option<Spectrum<D>>,
     /// The longest period that is excluded, with all shorter ones [cycles]; NaN where none is known.
     pub excluded: f64,
     /// How far the section is from repeating after the period, relative to the motion [-].
@@ -78,6 +80,7 @@ impl<S: Copy, O, const D: usize> Orbit<S, O, D> {
             period: 0,
             certificate: Certificate::none(),
             exponent: Exponent { value: unknown, uncertainty: unknown },
+            spectrum: None,
             excluded: unknown,
             residual: unknown,
             defect: unknown,
@@ -99,12 +102,16 @@ impl<S: Copy, O, const D: usize> Orbit<S, O, D> {
     pub fn withdrawn(self) -> Self {
         let unknown = Exponent { value: f64::NAN, uncertainty: f64::NAN };
         // The exponent of an orbit is that of its multipliers, and goes with its certificate.
-        let exponent = if self.outcome == Outcome::Periodic { unknown } else { self.exponent };
+        let (exponent, spectrum) = match self.outcome {
+            Outcome::Periodic => (unknown, None),
+            _ => (self.exponent, self.spectrum),
+        };
         Orbit {
             outcome: Outcome::Undecided,
             period: 0,
             certificate: Certificate::none(),
             exponent,
+            spectrum,
             excluded: f64::NAN,
             ..self
         }

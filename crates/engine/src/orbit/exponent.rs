@@ -78,28 +78,43 @@ impl<const D: usize, const N: usize> Stretching<D, N> {
         self.logs.iter().map(|logs| logs[j]).sum()
     }
 
-    /// The exponents for cycles of this mean duration [s], the first that of the direction that grows most.
-    ///
-    /// The first batch is left out: in it the directions turn to where they belong. The uncertainty is the
-    /// standard error over the other batches, which are long against the memory of the motion or should be.
-    pub fn exponents(&self, duration: f64) -> [Exponent; N] {
+    /// Notes by how much a cycle has stretched directions that were orthonormal when it began.
+    pub fn note(&mut self, logs: [f64; N]) {
+        self.logs.push(logs);
+    }
+
+    /// The rates of each batch but the first, for cycles of this mean duration [s]: in the first the directions turn to where
+    /// they belong.
+    pub fn rates(&self, duration: f64) -> Vec<[f64; N]> {
         let length = self.logs.len() / BATCHES;
         let batches = self.logs[self.logs.len() - length * BATCHES..].chunks_exact(length.max(1));
-        let batches: Vec<_> = batches.skip(1).collect();
-        let count = batches.len() as f64;
-        std::array::from_fn(|j| {
-            let rate = |batch: &[[f64; N]]| {
-                batch.iter().map(|logs| logs[j]).sum::<f64>() / (length as f64 * duration)
-            };
-            let rates: Vec<f64> = batches.iter().map(|batch| rate(batch)).collect();
-            let value = rates.iter().sum::<f64>() / count;
-            if value == f64::NEG_INFINITY {
-                return Exponent { value, uncertainty: 0.0 };
-            }
-            let squares: f64 = rates.iter().map(|rate| (rate - value) * (rate - value)).sum();
-            Exponent { value, uncertainty: (squares / (count * (count - 1.0))).sqrt() }
-        })
+        let rate = |batch: &[[f64; N]], j: usize| {
+            batch.iter().map(|logs| logs[j]).sum::<f64>() / (length as f64 * duration)
+        };
+        batches.skip(1).map(|batch| std::array::from_fn(|j| rate(batch, j))).collect()
     }
+
+    /// The exponents for cycles of this mean duration [s], the first that of the direction that grows most.
+    ///
+    /// The first batch is left out. The uncertainty is the standard error over the other batches, which are long against the
+    /// memory of the motion or should be.
+    pub fn exponents(&self, duration: f64) -> [Exponent; N] {
+        exponents_of(&self.rates(duration))
+    }
+}
+
+/// The exponents by their rates in batches of cycles.
+pub fn exponents_of<const N: usize>(batches: &[[f64; N]]) -> [Exponent; N] {
+    let count = batches.len() as f64;
+    std::array::from_fn(|j| {
+        let rates = batches.iter().map(|rates| rates[j]);
+        let value = rates.clone().sum::<f64>() / count;
+        if value == f64::NEG_INFINITY {
+            return Exponent { value, uncertainty: 0.0 };
+        }
+        let squares: f64 = rates.map(|rate| (rate - value) * (rate - value)).sum();
+        Exponent { value, uncertainty: (squares / (count * (count - 1.0))).sqrt() }
+    })
 }
 
 /// The stretching of `N` directions over whole cycles from a point of the section, and the mean duration of a

@@ -77,6 +77,7 @@ fn points_of<M: System<D>, const D: usize>(
             units: [1.0; D],
             cycles: Cycles { count: 1, tolerance },
             watched: false,
+            directions: None,
         };
         let Some(Ok(passage)) = passages(instructions, &[&request]).pop() else { break };
         points.push(passage.end);

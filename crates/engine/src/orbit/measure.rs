@@ -1,9 +1,11 @@
 //! What a settled case is measured to be, over the cycles that are kept.
 
+use super::all_exponents::AllExponents;
 use super::aperiodic::{Aperiodic, Departure, follow_aperiodic};
 use super::certificate::certify;
 use super::exponent::BATCHES;
 use super::matrix::{Complex, Matrix};
+use super::mean_error::measured_until;
 use super::measuring::{Kept, MeasureRequest, Measured};
 use super::neighbourhood::{Neighbourhood, OrbitPoint};
 use super::passage::{Integrator, OneByOne, PlainRequest, image};
@@ -13,7 +15,8 @@ use super::rest::from_rest;
 use super::return_map::{Cycles, append_points};
 use super::settling::Foretold;
 use super::{
-    Case, Certificate, Exponent, Failure, Orbit, OrbitOf, Outcome, Proof, Protocol, Trajectory,
+    Case, Certificate, Exponent, Exponents, Failure, Orbit, OrbitOf, Outcome, Proof, Protocol,
+    Trajectory,
 };
 use crate::flow::{Metric, Observer, Stroboscopic, Switched, System};
 use crate::lane::Instructions;
@@ -73,6 +76,8 @@ pub(super) struct Verdict<const D: usize> {
     certificate: Certificate<[f64; D]>,
     /// The exponent; of a periodic orbit that of its multipliers, once the duration of a cycle is known.
     exponent: Exponent,
+    /// Cycles over which that has been followed.
+    followed: u64,
     /// The longest period that is excluded, with all shorter ones [cycles].
     excluded: f64,
     /// Size of the motion that led there, beside which what is left of it may be nothing.
@@ -95,6 +100,7 @@ impl<const D: usize> Verdict<D> {
             cycles: period,
             certificate: Certificate { proof, residual: f64::NAN, multipliers, neutral },
             exponent: Exponent { value: f64::NAN, uncertainty: 0.0 },
+            followed: 0,
             excluded: (period - 1) as f64,
             size,
         }
@@ -162,6 +168,7 @@ fn judge<M: System<D>, const D: usize>(
                 cycles: protocol.measured_cycles,
                 certificate: Certificate::none(),
                 exponent: aperiodic.exponent,
+                followed: aperiodic.cycles,
                 excluded: aperiodic.excluded as f64,
                 size: 0.0,
             }))
@@ -289,26 +296,28 @@ fn measure<M: System<D>, const D: usize>(
     let (begins, elapsed) = (trajectory.state(), trajectory.elapsed());
     let first = trajectory.section();
     // The sums of a periodic orbit are the same in all of its periods.
-    let batches = if verdict.outcome == Outcome::Periodic { 0 } else { BATCHES as u64 };
-    let Measured { motion, progress, observed, batches, kept, failure } =
-        integrator.measured(MeasureRequest {
-            system: system.clone(),
-            motion: trajectory.motion(),
-            progress: trajectory.progress,
-            cycles: verdict.cycles,
-            batches,
-            max_steps: protocol.max_steps,
-            tolerance: protocol.tolerance,
-            points: protocol.points,
-            observed_points: protocol.impact_points,
-        });
+    let repeats = verdict.outcome == Outcome::Periodic;
+    let request = MeasureRequest {
+        system: system.clone(),
+        motion: trajectory.motion(),
+        progress: trajectory.progress,
+        cycles: verdict.cycles,
+        batches: if repeats { 0 } else { BATCHES as u64 },
+        max_steps: protocol.max_steps,
+        tolerance: protocol.tolerance,
+        points: protocol.points,
+        observed_points: protocol.impact_points,
+    };
+    let wanted = protocol.mean_error.filter(|_| !repeats);
+    let (cycles, measured) = measured_until(integrator, request, wanted);
+    let Measured { motion, progress, observed, batches, kept, failure } = measured;
     trajectory.go_on(motion, progress);
     if let Some(failure) = failure {
         return Err(failure);
     }
     let Kept { section, size, swing, excursion, defect, .. } = kept;
     let duration = if M::Single::AUTONOMOUS {
-        (trajectory.elapsed() - elapsed) / verdict.cycles as f64
+        (trajectory.elapsed() - elapsed) / cycles as f64
     } else {
         trajectory.system().period()
     };
@@ -328,11 +337,12 @@ fn measure<M: System<D>, const D: usize>(
         residual: certificate.residual,
         certificate,
         exponent: verdict.exponent(duration),
+        spectrum: None,
         excluded: verdict.excluded,
         defect,
         size,
         cycles: trajectory.progress.cycles,
-        measured_cycles: verdict.cycles,
+        measured_cycles: cycles,
         duration,
         section,
         begins,
@@ -341,6 +351,16 @@ fn measure<M: System<D>, const D: usize>(
         batches,
         failure: None,
     };
+    let is_wanted = is_sound && protocol.exponents == Exponents::All;
+    let asked = is_wanted.then(|| AllExponents {
+        system,
+        point: first,
+        followed: verdict.followed,
+        affordable: trajectory.progress.affordable_cycles(protocol.max_steps),
+        tolerance: protocol.tolerance,
+        integrator,
+    });
+    let orbit = Orbit { spectrum: asked.and_then(|it| it.of(&orbit)), ..orbit };
     Ok(if is_sound { orbit } else { orbit.withdrawn() })
 }
 

@@ -29,6 +29,13 @@ pub struct MeasureRequest<M: System<D>, const D: usize> {
     pub observed_points: usize,
 }
 
+impl<M: System<D>, const D: usize> MeasureRequest<M, D> {
+    /// The same of so many cycles.
+    pub fn lasting(&self, cycles: u64) -> Self {
+        MeasureRequest { system: self.system.clone(), cycles, ..*self }
+    }
+}
+
 /// Cycles that have been measured, as far as the motion could be followed.
 pub struct Measured<M: System<D>, const D: usize> {
     /// The motion after them.

@@ -79,6 +79,7 @@ impl<const D: usize> Neighbourhood<D> {
             units: [1.0; D],
             cycles,
             watched: true,
+            directions: None,
         };
         let followed = |points: Vec<[f64; D]>| {
             let requests: Vec<_> = points.into_iter().map(request).collect();

@@ -5,6 +5,7 @@ use std::fmt::Debug;
 use crate::flow::{Event, Reason, Step, Stroboscopic, Switched, System};
 use crate::lane::{Dual, Lane, Mask, Series, series};
 
+use super::directions::{CycleStretch, stretched};
 use super::extrema::{Extremum, SignChanges, Turns, nearest};
 use super::matrix::Matrix;
 use super::measuring::{MeasureRequest, Measured, measured_alone};
@@ -25,6 +26,9 @@ pub struct ReturnRequest<M: System<D>, const D: usize> {
     pub cycles: Cycles,
     /// Whether events and extrema are asked for, too.
     pub watched: bool,
+    /// Directions that take the place of the coordinates, orthonormal columns in units of these: they are made orthonormal again
+    /// after each step, and how much each was stretched is told; nothing is watched then.
+    pub directions: Option<Matrix<D>>,
 }
 
 /// A return, with derivatives along the coordinates of the section point and along the parameter, in their units.
@@ -32,8 +36,10 @@ pub struct ReturnRequest<M: System<D>, const D: usize> {
 pub struct Passage<E, const D: usize> {
     /// The section point that it returns to.
     pub end: [f64; D],
-    /// Its derivatives along the coordinates.
+    /// Its derivatives along the coordinates; where directions are asked for these, orthonormal in the units of the coordinates.
     pub jacobian: Matrix<D>,
+    /// How much each cycle has stretched the directions, where that is asked for.
+    pub stretches: Vec<CycleStretch<D>>,
     /// Its derivatives along the parameter; zero where none varies.
     pub by_parameter: [f64; D],
     /// The events in order, where they are asked for.
@@ -107,6 +113,7 @@ pub fn image<M: System<D>, const D: usize>(
         units: [1.0; D],
         cycles: *cycles,
         watched: false,
+        directions: None,
     })?;
     Ok(Image { end: passage.end, jacobian: passage.jacobian })
 }
@@ -242,6 +249,15 @@ impl<M: System<D>, const D: usize> ReturnRequest<M, D> {
             _ => 0.0,
         }
     }
+
+    /// The derivative of a coordinate of the section point along a direction at the start.
+    pub(super) fn coordinate_seed(&self, coordinate: usize, direction: usize) -> f64 {
+        match &self.directions {
+            Some(directions) => directions[coordinate][direction] * self.units[coordinate],
+            None if coordinate == direction => self.units[coordinate],
+            None => 0.0,
+        }
+    }
 }
 
 /// A return in numbers with derivatives along `D` coordinates and a parameter.
@@ -256,7 +272,14 @@ fn alone<M: System<D>, const D: usize, const U: usize>(
     let system = request.system.system(seeded);
     let mut from = request.point.map(Dual::<f64, U>::constant);
     for (i, coordinate) in from.iter_mut().enumerate() {
-        coordinate.gradient[i] = request.units[i];
+        for direction in 0..D {
+            coordinate.gradient[direction] = request.coordinate_seed(i, direction);
+        }
+    }
+    if request.directions.is_some() {
+        let (end, stretches) = stretched(&system, from, &request.units, &request.cycles)?;
+        let passing = Passing::new(system.period().value);
+        return Ok(Passage { stretches, ..told(end, passing, f64::INFINITY) });
     }
     let autonomous = M::Single::AUTONOMOUS;
     let mut excursion: f64 = if autonomous { 0.0 } else { f64::INFINITY };
@@ -291,6 +314,7 @@ pub(super) fn told<E, const D: usize, const U: usize>(
     Passage {
         end: end.map(|it| it.value),
         jacobian: end.map(|it| std::array::from_fn(|i| it.gradient[i])),
+        stretches: Vec::new(),
         by_parameter: end.map(|it| it.gradient[D]),
         events: passing.events,
         nearest_event: passing.first_and_last.map_or(f64::INFINITY, |[first, last]| {

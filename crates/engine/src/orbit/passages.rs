@@ -7,6 +7,7 @@ use std::vec;
 use crate::flow::{Event, Motion, Reason, Stroboscopic, Switched, System};
 use crate::lane::{Dual, Instructions, Lane, Mask, Series, SideBySide, Work, series};
 
+use super::directions::{CycleStretch, add_logs, can_be_compared, orthonormalise};
 use super::extrema::SignChanges;
 use super::lanes::{EndedCycle, Lanes, Task};
 use super::occupancy::Kernel;
@@ -128,17 +129,54 @@ struct Returning<'a, P: Lane, M: System<D>, const D: usize, const U: usize> {
 }
 
 /// A return in a lane.
-struct ReturnInLane<E, const U: usize> {
+struct ReturnInLane<E, const D: usize, const U: usize> {
     /// Its place among those that are asked for.
     number: usize,
     passing: Passing<Dual<f64, U>, E>,
     cycles: u64,
+    /// What the cycles have made of its directions, where that is asked for, and what this one has so far.
+    stretches: Vec<CycleStretch<D>>,
+    logs: [f64; D],
+}
+
+impl<'a, P: Lane, M: System<D>, const D: usize, const U: usize> Returning<'a, P, M, D, U> {
+    /// The lanes, as bits, with a return of which something is so.
+    #[inline(always)]
+    fn lanes_where<K>(
+        &self,
+        kept: &[Option<K>],
+        is_so: impl Fn(&ReturnRequest<M, D>) -> bool,
+    ) -> u64 {
+        let mut lanes = 0;
+        for (lane, kept) in kept.iter().enumerate() {
+            lanes |= u64::from(kept.is_some() && is_so(self.in_lane[lane])) << lane;
+        }
+        lanes
+    }
+
+    /// Takes note of how much a step has stretched the directions that are followed.
+    #[inline(always)]
+    fn stretch<L: Lane>(&self, lanes: &mut Lanes<Dual<L, U>, M, ReturnInLane<M::Event, D, U>, D>) {
+        let followed = self.lanes_where(&lanes.kept, |it| it.directions.is_some());
+        if followed == 0 {
+            return;
+        }
+        let Lanes { system, step, motion, kept, .. } = lanes;
+        let due = L::Mask::from_bits(followed) & can_be_compared::<_, M::In<Dual<L, U>>, D>(step);
+        let units = std::array::from_fn(|i| L::from_fn(|lane| self.in_lane[lane].units[i]));
+        let lengths = orthonormalise(system, step, motion, &units, due);
+        for (lane, own) in kept.iter_mut().enumerate() {
+            if let Some(own) = own.as_mut().filter(|_| due.lane(lane)) {
+                add_logs(&mut own.logs, &lengths, lane);
+            }
+        }
+    }
 }
 
 impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>, M, D>
     for Returning<'a, L::Plain, M, D, U>
 {
-    type Kept = ReturnInLane<M::Event, U>;
+    type Kept = ReturnInLane<M::Event, D, U>;
     const KERNEL: Kernel = Kernel::Returns;
 
     #[inline(always)]
@@ -157,18 +195,17 @@ impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>,
         lanes.enter(begun(&lanes.system, &self.in_lane));
         for (lane, number) in entrants {
             let passing = Passing::new(lanes.period(lane));
-            lanes.let_in(lane, ReturnInLane { number, passing, cycles: 0 });
+            let (stretches, logs) = (Vec::new(), [0.0; D]);
+            lanes.let_in(lane, ReturnInLane { number, passing, cycles: 0, stretches, logs });
         }
         true
     }
 
     #[inline(always)]
     fn see(&mut self, lanes: &mut Lanes<Dual<L, U>, M, Self::Kept, D>) {
+        self.stretch(lanes);
         let Lanes { system, step, kept, .. } = lanes;
-        let mut watched = 0;
-        for (lane, kept) in kept.iter().enumerate() {
-            watched |= u64::from(kept.is_some() && self.in_lane[lane].watched) << lane;
-        }
+        let watched = self.lanes_where(kept, |it| it.watched && it.directions.is_none());
         if watched == 0 {
             return;
         }
@@ -197,17 +234,21 @@ impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>,
         &mut self,
         lanes: &mut Lanes<Dual<L, U>, M, Self::Kept, D>,
         lane: usize,
-        _cycle: EndedCycle,
+        cycle: EndedCycle,
     ) {
         let Some(own) = &mut lanes.kept[lane] else { return };
         own.cycles += 1;
+        if self.in_lane[lane].directions.is_some() {
+            let logs = std::mem::replace(&mut own.logs, [0.0; D]);
+            own.stretches.push(CycleStretch { logs, duration: cycle.duration });
+        }
         if own.cycles < self.in_lane[lane].cycles.count {
             return;
         }
-        let ReturnInLane { number, passing, .. } = lanes.take(lane);
+        let ReturnInLane { number, passing, stretches, .. } = lanes.take(lane);
         let end = M::In::<Dual<L, U>>::point(&lanes.motion.state);
         let end = std::array::from_fn(|i| one(&end[i], lane));
-        self.found[number] = Ok(told(end, passing, f64::INFINITY));
+        self.found[number] = Ok(Passage { stretches, ..told(end, passing, f64::INFINITY) });
     }
 
     #[inline(always)]
@@ -225,7 +266,10 @@ fn begun<L: Lane, M: System<D>, const D: usize, const U: usize>(
 ) -> Motion<Dual<L, U>, M::In<Dual<L, U>>> {
     let from = std::array::from_fn(|i| {
         let mut dual = Dual::<L, U>::constant(L::from_fn(|lane| in_lane[lane].point[i]));
-        dual.gradient[i] = L::from_fn(|lane| in_lane[lane].units[i]);
+        for direction in 0..D {
+            dual.gradient[direction] =
+                L::from_fn(|lane| in_lane[lane].coordinate_seed(i, direction));
+        }
         dual
     });
     Motion::begun(system, Dual::splat(0.0), M::In::<Dual<L, U>>::state(from))

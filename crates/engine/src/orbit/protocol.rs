@@ -1,5 +1,6 @@
 //! How a case is followed and judged, and what it may turn out to be.
 
+use std::fmt;
 use std::ops::RangeInclusive;
 
 use serde::Serialize;
@@ -63,8 +64,29 @@ impl HistorySpan {
     }
 }
 
+/// Which Lyapunov exponents are computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exponents {
+    /// The largest.
+    Largest,
+    /// As many as the section has coordinates, and the dimension that follows from them.
+    All,
+}
+
+impl Exponents {
+    /// Each with its name in studies.
+    pub const NAMES: [(&str, Exponents); 2] =
+        [("largest", Exponents::Largest), ("all", Exponents::All)];
+
+    /// Its name in studies.
+    pub fn name(self) -> &'static str {
+        let named = Exponents::NAMES.into_iter().find(|(_, it)| *it == self);
+        named.expect("each has a name").0
+    }
+}
+
 /// How a case is followed and judged.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Protocol {
     /// Relative local error of a step.
     pub tolerance: f64,
@@ -84,6 +106,11 @@ pub struct Protocol {
     pub exponent_cycles: u64,
     /// The standard error, relative to the exponent, at which an exponent above zero is known well enough before that [-].
     pub exponent_error: f64,
+    /// Which exponents are computed.
+    pub exponents: Exponents,
+    /// The standard error, relative to the mean, at which the mean gain of a motion that does not repeat is known well enough [-];
+    /// where there is none it is measured over `measured_cycles`.
+    pub mean_error: Option<f64>,
     /// Section points kept at most.
     pub points: usize,
     /// Impacts kept at most, by an observer that notes them.
@@ -106,6 +133,8 @@ impl Default for Protocol {
             measured_cycles: 128,
             exponent_cycles: 2048,
             exponent_error: *Protocol::EXPONENT_ERRORS.end(),
+            exponents: Exponents::Largest,
+            mean_error: None,
             points: 64,
             impact_points: 64,
             accelerate: true,
@@ -114,9 +143,38 @@ impl Default for Protocol {
     }
 }
 
+/// As fingerprints of studies have it: what is asked for by few is told where it is, so that those of other studies stay.
+impl fmt::Debug for Protocol {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = f.debug_struct("Protocol");
+        shown
+            .field("tolerance", &self.tolerance)
+            .field("recurrence", &self.recurrence)
+            .field("max_cycles", &self.max_cycles)
+            .field("max_steps", &self.max_steps)
+            .field("max_period", &self.max_period)
+            .field("measured_cycles", &self.measured_cycles)
+            .field("exponent_cycles", &self.exponent_cycles)
+            .field("exponent_error", &self.exponent_error)
+            .field("points", &self.points)
+            .field("impact_points", &self.impact_points)
+            .field("accelerate", &self.accelerate)
+            .field("history", &self.history);
+        if self.exponents != Exponents::Largest {
+            shown.field("exponents", &self.exponents);
+        }
+        if let Some(error) = self.mean_error {
+            shown.field("mean_error", &error);
+        }
+        shown.finish()
+    }
+}
+
 impl Protocol {
     /// What the error wanted of an exponent may be: chaos is told by an exponent of five standard errors, and is to be clear.
     pub const EXPONENT_ERRORS: RangeInclusive<f64> = 1e-4..=0.1;
+    /// What the error wanted of a mean may be.
+    pub const MEAN_ERRORS: RangeInclusive<f64> = 1e-5..=0.5;
     /// What a tolerance and a recurrence may be.
     pub const TOLERANCES: RangeInclusive<f64> = 1e-15..=1e-3;
 

@@ -60,6 +60,11 @@ impl Progress {
         max_steps.saturating_sub(self.steps_before)
     }
 
+    /// Cycles that are left, if they take as many steps as those before in the mean, of a case that may take so many in all.
+    pub fn affordable_cycles(&self, max_steps: u64) -> u64 {
+        self.steps_left(max_steps) / self.mean_steps().max(1)
+    }
+
     /// Steps of a cycle in the mean of those before.
     pub fn mean_steps(&self) -> u64 {
         self.steps_before / self.cycles.max(1)

@@ -32,6 +32,7 @@ fn request(random: &mut Random, case: &Case) -> Capsule {
         units: [1e-3, 0.5, 2.0],
         cycles: Cycles { count: random.logarithmic(1.0, 16.0) as u64, tolerance: 1e-12 },
         watched: random.uniform(0.0, 1.0) < 0.5,
+        directions: None,
     }
 }
 

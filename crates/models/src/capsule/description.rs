@@ -15,7 +15,7 @@ use super::signals;
 use super::state::State;
 use crate::description::{
     self, Choice, CoordinateDescription, Description, DriveRoles, MotionDescription,
-    OutputDescription, ParameterDescription, Roles, TradeOffRoles,
+    OutputDescription, ParameterDescription, Roles, SpectrumRoles, TradeOffRoles,
 };
 use crate::quantity::Quantity;
 
@@ -132,6 +132,14 @@ const ON_EVEN_GROUND: Description = Description {
         ],
         exponent: Output::LyapunovExponent as usize,
         exponent_error: Output::LyapunovUncertainty as usize,
+        spectrum: Some(SpectrumRoles {
+            exponents: EXPONENTS.split_at(3).0,
+            dimension: [
+                Output::KaplanYorkeDimension as usize,
+                Output::KaplanYorkeDimensionError as usize,
+            ],
+        }),
+        gain_error: Some(Output::ProgressionSpeedError as usize),
         excluded_period: Output::ExcludedPeriod as usize,
         defect: Output::IntegrationDefect as usize,
         section_residual: Output::SectionResidual as usize,
@@ -163,7 +171,14 @@ pub static CAPSULE_OVER_FOLDS: Description = Description {
         ..signals::MOTION_OVER_FOLDS
     },
     outputs: OUTPUTS,
-    roles: Roles { key_outputs: KEY_OUTPUTS, ..ON_EVEN_GROUND.roles },
+    roles: Roles {
+        key_outputs: KEY_OUTPUTS,
+        spectrum: match ON_EVEN_GROUND.roles.spectrum {
+            Some(it) => Some(SpectrumRoles { exponents: EXPONENTS, ..it }),
+            None => None,
+        },
+        ..ON_EVEN_GROUND.roles
+    },
     ..ON_EVEN_GROUND
 };
 
@@ -174,6 +189,14 @@ const COORDINATES: &[CoordinateDescription] = &[
     CoordinateDescription { name: "x2", tag: "StartX2", start: START_X2 },
     CoordinateDescription { name: "y2", tag: "StartY2", start: START_Y2 },
     CoordinateDescription { name: "place", tag: "StartPlace", start: START_PLACE },
+];
+
+/// The exponents with their errors, that of folds last.
+const EXPONENTS: &[[usize; 2]] = &[
+    [Output::Lyapunov1 as usize, Output::Lyapunov1Error as usize],
+    [Output::Lyapunov2 as usize, Output::Lyapunov2Error as usize],
+    [Output::Lyapunov3 as usize, Output::Lyapunov3Error as usize],
+    [Output::Lyapunov4 as usize, Output::Lyapunov4Error as usize],
 ];
 
 /// The outputs that are told first, that of folds last.
@@ -281,7 +304,7 @@ impl Output {
             quantity: self.quantity(),
             tag: self.tag(),
             is_smooth: self.is_smooth(),
-            is_optional: self.is_optional(),
+            kept: self.kept(),
         }
     }
 

@@ -117,12 +117,19 @@ impl<L: Lane> Drag<L> {
         L::select(self.at_onset.lt(self.break_away), L::splat(1.0), L::splat(2.0))
     }
 
-    /// `exp(-|y2|/v_s)` at the start of a step; zero where the law has no such term.
+    /// `exp(-|y2|/v_s)` at the start of a step in the direction `slip`; zero where the law has no such term.
+    ///
+    /// Where y2 is zero, as at a start, |y2| changes as y2 does to the side to which the motion slips: the derivatives of |y2| there are
+    /// those of -y2 while it slips backward.
     #[inline(always)]
-    pub fn decay_start(&self, y2: L) -> L {
+    pub fn decay_start(&self, slip: L, y2: L) -> L {
+        let zero = L::splat(0.0);
         match self.law {
-            Resistance::CoulombStribeck => exp_decay(-(y2.abs() * self.inverse_stribeck)),
-            Resistance::Coulomb | Resistance::Medium => L::splat(0.0),
+            Resistance::CoulombStribeck => {
+                let backward = y2.lt(zero) | (y2.le(zero) & slip.lt(zero));
+                exp_decay(-(L::select(backward, -y2, y2) * self.inverse_stribeck))
+            }
+            Resistance::Coulomb | Resistance::Medium => zero,
         }
     }
 

@@ -171,7 +171,7 @@ impl<L: Lane> Switched<L> for Capsule<L> {
         self.drive.cos(time, &mut jet.cos);
         (jet.r[0], jet.y1[0], jet.x2[0], jet.y2[0]) = (state.r, state.y1, state.x2, state.y2);
         jet.force[0] = self.force(mode, state);
-        jet.decay[0] = if any_slides { self.drag.decay_start(state.y2) } else { zero };
+        jet.decay[0] = if any_slides { self.drag.decay_start(mode.slip, state.y2) } else { zero };
         self.drag.write_exponent_term(mode.slip, jet, 0);
         for k in 0..ORDER {
             let per = L::Plain::splat(series::INVERSE[k + 1]);

@@ -4,6 +4,7 @@ use std::ops::{Index, IndexMut};
 
 use capsulemap_engine::lane::Lane;
 
+use crate::description::Kept;
 use crate::quantity::Dimension;
 
 macro_rules! outputs {
@@ -15,7 +16,7 @@ macro_rules! outputs {
         }
 
         impl Output {
-            /// Every output of a capsule over folds: those of one on even ground, then that of the folds.
+            /// Every output of a capsule over folds: those of one on even ground, then those of the folds.
             pub const OVER_FOLDS: &[Output] = &[$(Output::$variant,)*];
 
             /// The name used in studies and files.
@@ -72,6 +73,14 @@ outputs! {
     WorkActuatorError "work_actuator_error" Energy "standard error of the mean that work_actuator is of a motion that does not repeat, over batches of cycles";
     FrictionLossError "friction_loss_error" Energy "standard error of the mean that friction_loss is of a motion that does not repeat, over batches of cycles";
     DamperLossError "damper_loss_error" Energy "standard error of the mean that damper_loss is of a motion that does not repeat, over batches of cycles";
+    Lyapunov1 "lyapunov_1" Rate "largest of all Lyapunov exponents, over the same cycles as the others";
+    Lyapunov1Error "lyapunov_1_error" Rate "standard error of lyapunov_1";
+    Lyapunov2 "lyapunov_2" Rate "second Lyapunov exponent";
+    Lyapunov2Error "lyapunov_2_error" Rate "standard error of lyapunov_2";
+    Lyapunov3 "lyapunov_3" Rate "third Lyapunov exponent";
+    Lyapunov3Error "lyapunov_3_error" Rate "standard error of lyapunov_3";
+    KaplanYorkeDimension "kaplan_yorke_dimension" Number "dimension of the attractor on the section by all Lyapunov exponents";
+    KaplanYorkeDimensionError "kaplan_yorke_dimension_error" Number "standard error of kaplan_yorke_dimension";
     ContactLoss "contact_loss" Energy "energy lost in the damping of the stops per cycle";
     DragLoss "drag_loss" Energy "part of friction_loss that is lost to drag";
     LiftingWork "lifting_work" Energy "work against incline and load per cycle";
@@ -79,6 +88,8 @@ outputs! {
     RearPeakContactForce "rear_peak_contact_force" Force "largest force of the rear stop";
     RearGrazingMargin "rear_grazing_margin" Length "least distance between a local minimum of x1 - x2 and the rear stop";
     FoldsPerPeriod "folds_per_period" Number "folds that a locked motion passes in its period, backward negative; unknown where it does not repeat";
+    Lyapunov4 "lyapunov_4" Rate "fourth Lyapunov exponent";
+    Lyapunov4Error "lyapunov_4_error" Rate "standard error of lyapunov_4";
 }
 
 impl Output {
@@ -121,9 +132,32 @@ impl Output {
         )
     }
 
-    /// Whether only members of the family have more to tell by it than zero.
+    /// Which studies keep it where they name none; only members of the family have more to tell by some than zero.
+    pub const fn kept(self) -> Kept {
+        match self {
+            Output::Lyapunov1
+            | Output::Lyapunov1Error
+            | Output::Lyapunov2
+            | Output::Lyapunov2Error
+            | Output::Lyapunov3
+            | Output::Lyapunov3Error
+            | Output::Lyapunov4
+            | Output::Lyapunov4Error
+            | Output::KaplanYorkeDimension
+            | Output::KaplanYorkeDimensionError => Kept::WithExponents,
+            Output::ContactLoss
+            | Output::DragLoss
+            | Output::LiftingWork
+            | Output::RearImpactsPerCycle
+            | Output::RearPeakContactForce
+            | Output::RearGrazingMargin => Kept::WithParts,
+            _ => Kept::Always,
+        }
+    }
+
+    /// Whether not all of these keep it.
     pub const fn is_optional(self) -> bool {
-        self as usize > Output::DamperLossError as usize && !self.is_of_folds()
+        !matches!(self.kept(), Kept::Always)
     }
 
     /// Its unit; "1" where it has none.

@@ -185,7 +185,7 @@ impl<L: Lane> Switched<L> for PrintedCapsule<L> {
         let force = self.force(mode.closed, state);
         let limit = mode.side * self.drag.static_limit;
         jet.force[0] = L::select(mode.is(Regime::Creeping), limit, force);
-        jet.decay[0] = self.drag.decay_start(state.y2);
+        jet.decay[0] = self.drag.decay_start(mode.slip, state.y2);
         self.drag.write_exponent_term(mode.slip, jet, 0);
         self.advance(mode, jet, share);
     }

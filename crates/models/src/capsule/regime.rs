@@ -196,7 +196,7 @@ impl<L: Lane> Rules<'_, L> {
         let push = self.drive.amplitude * cos[0] - limit;
         let frozen_rate = side * (self.stiffness * state.y1 + self.c * push / self.m1);
         let (mut decay, mut y2) = (series::zero(), series::zero());
-        (decay[0], y2[0]) = (self.drag.decay_start(state.y2), state.y2);
+        (decay[0], y2[0]) = (self.drag.decay_start(slip, state.y2), state.y2);
         let friction = self.drag.force_term(slip, &decay, &y2, 0);
         let acceleration = (limit - friction) / self.m2;
         let moving_rate = frozen_rate - side * (self.stiffness * state.y2 + self.c * acceleration);

@@ -233,6 +233,10 @@ impl<R: Reading<D>, const D: usize> System<D> for CapsuleSystem<R> {
         R::metric(&self.parameters)
     }
 
+    fn gained(observed: &Account<f64>) -> Option<f64> {
+        Some(observed.advance)
+    }
+
     fn observer(&self, points: usize) -> Account<f64> {
         Account::single(&self.parameters, points)
     }

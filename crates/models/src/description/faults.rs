@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Description, MOST_COORDINATES, Source};
+use super::{Description, MOST_COORDINATES, Source, SpectrumRoles};
 
 impl Description {
     /// What does not fit together in it, each in a sentence, where a point of its section has so many coordinates; nothing where all
@@ -34,6 +34,14 @@ impl Description {
                     "{what} has {count} entries, and a section point has {dimension} coordinates"
                 ));
             }
+        }
+        if let Some(SpectrumRoles { exponents, .. }) = self.roles.spectrum
+            && exponents.len() != dimension
+        {
+            faults.push(format!(
+                "the spectrum has {} exponents, and a section point has {dimension} coordinates",
+                exponents.len()
+            ));
         }
         let places = self.on_section.iter().map(|place| ("on_section", *place));
         let places = places.chain(self.drift.map(|place| ("drift", place)));
@@ -93,7 +101,9 @@ impl Description {
             roles.defect,
             roles.section_residual,
         ];
-        let outputs = outputs.into_iter().chain(roles.rest_share).chain(trade_off);
+        let of_spectrum = roles.spectrum.iter().flat_map(SpectrumRoles::all);
+        let outputs = outputs.into_iter().chain(of_spectrum).chain(roles.gain_error);
+        let outputs = outputs.chain(roles.rest_share).chain(trade_off);
         let outputs =
             outputs.chain([roles.key_outputs, roles.event_counts].into_iter().flatten().copied());
         let of_parameters =

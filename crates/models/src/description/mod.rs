@@ -20,11 +20,11 @@ use crate::quantity::Quantity;
 
 pub use choice::Choice;
 pub use motion::{Chart, MotionDescription, Signal, SignalGroup, SignalKind, Source};
-pub use output::{Output, OutputDescription, Outputs};
+pub use output::{Kept, Output, OutputDescription, Outputs};
 pub use own::{Definitions, OwnOutputs};
 pub use parameter::{Parameter, ParameterDescription, Presence};
 pub use parameters::{Fault, Parameters};
-pub use roles::{DriveRoles, Roles, TradeOffRoles};
+pub use roles::{DriveRoles, Roles, SpectrumRoles, TradeOffRoles};
 pub use rules::{NotGiven, Remark, Rules, Threshold};
 pub use section::{MOST_COORDINATES, Section};
 pub use state::{CoordinateDescription, State, StateCoordinate};

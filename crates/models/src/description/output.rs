@@ -6,6 +6,19 @@ use std::ops::{Index, IndexMut};
 use super::Description;
 use crate::quantity::{Dimension, Quantity};
 
+/// Which studies keep an output where they name none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kept {
+    /// Each.
+    Always,
+    /// Those whose equations have something that is optional.
+    WithParts,
+    /// Those that ask for all exponents.
+    WithExponents,
+    /// Those that want the error of a mean.
+    WithMeanError,
+}
+
 /// What a model says of an output.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutputDescription {
@@ -15,8 +28,8 @@ pub struct OutputDescription {
     pub tag: &'static str,
     /// Whether it changes smoothly along a family of orbits with the same events, so that it has derivatives in the parameters.
     pub is_smooth: bool,
-    /// Whether studies that name no outputs keep it only where the equations have something that is optional.
-    pub is_optional: bool,
+    /// Which studies keep it where they name none.
+    pub kept: Kept,
 }
 
 /// A number that sums up a case of a model.
@@ -68,9 +81,14 @@ impl Output {
         self.model.outputs[self.index].is_smooth
     }
 
-    /// Whether studies that name no outputs keep it only where the equations have something that is optional.
+    /// Which studies keep it where they name none.
+    pub fn kept(self) -> Kept {
+        self.model.outputs[self.index].kept
+    }
+
+    /// Whether not all of these keep it.
     pub fn is_optional(self) -> bool {
-        self.model.outputs[self.index].is_optional
+        self.kept() != Kept::Always
     }
 
     /// The name used in studies and files.

@@ -25,6 +25,11 @@ pub struct Roles {
     pub exponent: usize,
     /// Its standard error.
     pub exponent_error: usize,
+    /// All Lyapunov exponents and the dimension that follows from them, if it tells them.
+    pub spectrum: Option<SpectrumRoles>,
+    /// The standard error of the mean of what a motion gains, if it gains anything whose mean is known better the longer it is
+    /// measured.
+    pub gain_error: Option<usize>,
     /// The longest period that is excluded, with all shorter ones.
     pub excluded_period: usize,
     /// The largest defect of a step.
@@ -44,6 +49,22 @@ pub struct DriveRoles {
     pub amplitude: Option<usize>,
     /// How long a cycle lasts [s], where that follows from the parameters in another way.
     pub cycle: Option<fn(&Parameters) -> f64>,
+}
+
+/// Places among the outputs of a model of all Lyapunov exponents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SpectrumRoles {
+    /// Each, the largest first, with its standard error: as many as a section point has coordinates.
+    pub exponents: &'static [[usize; 2]],
+    /// The dimension that follows from them, with its standard error.
+    pub dimension: [usize; 2],
+}
+
+impl SpectrumRoles {
+    /// All the places.
+    pub fn all(&self) -> impl Iterator<Item = usize> + '_ {
+        self.exponents.iter().chain([&self.dimension]).flatten().copied()
+    }
 }
 
 /// Places among the outputs of a model of what a motion gains and costs.
@@ -109,6 +130,21 @@ outputs_by_role! {
 }
 
 impl Description {
+    /// The standard error of an output, if it has one.
+    pub fn error_of(&'static self, output: Output) -> Option<Output> {
+        if output == self.exponent() {
+            return Some(self.exponent_error());
+        }
+        self.output(&format!("{}_error", output.name()))
+    }
+
+    /// All Lyapunov exponents and the dimension, if it tells them.
+    pub fn spectrum(&'static self) -> impl Iterator<Item = Output> {
+        let roles = self.roles.spectrum.iter();
+        let places = roles.flat_map(|it| it.exponents.iter().chain([&it.dimension]));
+        places.map(move |[place, _]| Output::of(self, *place))
+    }
+
     /// Whether it has a drive, whose period is a cycle; without one a cycle is from section to section.
     pub fn has_drive(&self) -> bool {
         self.roles.drive.is_some()

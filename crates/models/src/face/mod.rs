@@ -7,9 +7,9 @@ mod stretch;
 use capsulemap_engine::branch::{self, NotFollowed};
 use capsulemap_engine::flow::{Reason, Step, System};
 use capsulemap_engine::orbit::return_map::Cycles;
-use capsulemap_engine::orbit::{self, Certificate, OrbitOf, Outcome, Protocol};
+use capsulemap_engine::orbit::{self, Certificate, OrbitOf, Outcome, Protocol, Spectrum};
 
-use crate::description::{Description, Outputs, Parameter, Parameters, State};
+use crate::description::{Description, Output, Outputs, Parameter, Parameters, State};
 use crate::motion::branch::{Found, Request};
 use crate::motion::{Case, Orbit, Sensitivity, Setting};
 
@@ -127,10 +127,13 @@ pub fn orbit_of<M: Face<D>, const D: usize>(
         Ok(history) => (orbit, history),
         Err(failure) => (failed(&system, orbit, failure), Vec::new()),
     };
-    let outputs = match orbit.failure {
+    let mut outputs = match orbit.failure {
         None => system.outputs(&orbit, protocol.recurrence),
         Some(_) => Outputs::unknown(model),
     };
+    if let (None, Some(spectrum)) = (&orbit.failure, &orbit.spectrum) {
+        add_spectrum(&mut outputs, spectrum);
+    }
     let mut certificate = orbit.certificate.map(told);
     certificate.multipliers.truncate(model.section.len());
     Orbit {
@@ -144,6 +147,19 @@ pub fn orbit_of<M: Face<D>, const D: usize>(
         history,
         end: system.told(&orbit.end),
         failure: orbit.failure.map(|it| it.map(|state| system.told(&state))),
+    }
+}
+
+/// Adds all exponents and the dimension, where the model tells them.
+fn add_spectrum<const D: usize>(outputs: &mut Outputs, spectrum: &Spectrum<D>) {
+    let model = outputs.model();
+    let Some(roles) = model.roles.spectrum else { return };
+    let places = roles.exponents.iter().chain([&roles.dimension]);
+    let of_section = &spectrum.exponents[..roles.exponents.len()];
+    for (places, found) in places.zip(of_section.iter().chain([&spectrum.dimension])) {
+        for (place, value) in places.iter().zip([found.value, found.uncertainty]) {
+            outputs[Output::of(model, *place)] = value;
+        }
     }
 }
 

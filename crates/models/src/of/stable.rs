@@ -36,6 +36,7 @@ pub(super) fn orbit<M: Face<D>, const D: usize>(
         units: [1.0; D],
         cycles,
         watched: true,
+        directions: None,
     });
     let events = cyclic(&passed.ok()?.events);
     Some(StableOrbit {

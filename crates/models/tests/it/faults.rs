@@ -60,6 +60,7 @@ static WRONG: Description = Description {
         impact_surface: None,
         rear_surface: None,
         natural: None,
+        spectrum: None,
         ..CAPSULE.roles
     },
     rules: Rules::NONE,

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use capsulemap_models::description::{
-    Chart, CoordinateDescription, Description, DriveRoles, Equations, MotionDescription,
+    Chart, CoordinateDescription, Description, DriveRoles, Equations, Kept, MotionDescription,
     OutputDescription, ParameterDescription, Parameters, Presence, Remark, Roles, Rules, Signal,
-    SignalKind,
+    SignalKind, SpectrumRoles,
 };
 use capsulemap_models::quantity::shown::shown;
 use capsulemap_models::quantity::units::dimension_of;
@@ -51,6 +51,20 @@ fn first_rest(text: &Text) -> usize {
 /// Where the counts of events begin.
 fn first_count(text: &Text) -> usize {
     first_rest(text) + text.frictions.len()
+}
+
+/// Where all exponents begin, each with its error, and the dimension with its error; before them is the error of the speed of what
+/// drifts, where something does.
+pub fn first_of_spectrum(program: &Program) -> usize {
+    let text = &program.text;
+    first_count(text) + program.events.len() + usize::from(text.drift.is_some())
+}
+
+fn spectrum_roles(program: &Program) -> SpectrumRoles {
+    let first = first_of_spectrum(program);
+    let exponents = program.text.on_section().count();
+    let pair = |number: usize| [first + 2 * number, first + 2 * number + 1];
+    SpectrumRoles { exponents: list((0..exponents).map(pair)), dimension: pair(exponents) }
 }
 
 /// Characters that are kept as long as the program runs, as those of its own models are.
@@ -116,6 +130,8 @@ pub fn description(program: &'static Program, equations: Equations) -> &'static 
             event_counts: list(first_count(text)..first_count(text) + program.events.len()),
             exponent: first_of_all(text) + EXPONENT,
             exponent_error: first_of_all(text) + EXPONENT_ERROR,
+            spectrum: Some(spectrum_roles(program)),
+            gain_error: text.drift.map(|_| first_of_spectrum(program) - 1),
             excluded_period: first_of_all(text) + EXCLUDED_PERIOD,
             defect: first_of_all(text) + DEFECT,
             section_residual: first_of_all(text) + SECTION_RESIDUAL,
@@ -335,7 +351,32 @@ fn outputs(program: &Program) -> Vec<OutputDescription> {
         let meaning = format!("how often {} happens in a cycle", event_name(text, *it));
         outputs.push(number(format!("{name}_per_cycle"), meaning));
     }
+    outputs.extend(text.drift.map(|_| OutputDescription {
+        kept: Kept::WithMeanError,
+        ..with_error(outputs[0], "mean over batches of cycles of a motion that does not repeat")
+    }));
+    outputs.extend(spectrum(text.on_section().count(), rate));
     outputs
+}
+
+/// The standard error of another output.
+fn with_error(of: OutputDescription, what: &str) -> OutputDescription {
+    let Quantity { name, dimension, .. } = of.quantity;
+    let meaning = format!("standard error of {name}, {what}");
+    output(format!("{name}_error"), meaning, dimension.unit())
+}
+
+/// All exponents, as many as these, and the dimension, each with its standard error.
+fn spectrum(count: usize, rate: &str) -> Vec<OutputDescription> {
+    let exponent = |number: usize| {
+        let meaning = format!("exponent {number} of all Lyapunov exponents, the largest first");
+        output(format!("lyapunov_{number}"), meaning, rate)
+    };
+    let meaning = "dimension of the attractor on the section by all Lyapunov exponents";
+    let dimension = number("kaplan_yorke_dimension", meaning);
+    let all = (1..=count).map(exponent).chain([dimension]);
+    let with_errors = all.flat_map(|it| [it, with_error(it, "over batches of cycles")]);
+    with_errors.map(|it| OutputDescription { kept: Kept::WithExponents, ..it }).collect()
 }
 
 fn number(name: impl Into<String>, meaning: impl Into<String>) -> OutputDescription {
@@ -346,5 +387,5 @@ fn output(name: impl Into<String>, meaning: impl Into<String>, unit: &str) -> Ou
     let name = kept(name);
     let quantity =
         Quantity { name, dimension: dimension_of(kept(unit)), meaning: kept(meaning), shown: None };
-    OutputDescription { quantity, tag: name, is_smooth: false, is_optional: false }
+    OutputDescription { quantity, tag: name, is_smooth: false, kept: Kept::Always }
 }

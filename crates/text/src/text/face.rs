@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use capsulemap_engine::orbit::OrbitOf;
+use capsulemap_engine::orbit::{Orbit, OrbitOf, Outcome};
+use capsulemap_models::capsule::mean_errors::standard_error;
 use capsulemap_models::description::{Description, Outputs, Parameter, Parameters, State};
 use capsulemap_models::face::Face;
 use capsulemap_models::motion::{Case, reduced};
@@ -11,7 +12,23 @@ use crate::text::described::{
     CYCLE_DURATION, DEFECT, EXCLUDED_PERIOD, EXPONENT, EXPONENT_ERROR, LARGEST_MULTIPLIER,
     LARGEST_PART, OF_ALL, SECTION_RESIDUAL, program_of,
 };
+use crate::text::sums::Sums;
 use crate::text::system::TextSystem;
+
+/// The standard error of the mean rate of what drifts: zero of a periodic orbit, else by batches of its measured cycles.
+fn speed_error<S, const D: usize>(orbit: &Orbit<S, Sums<f64>, D>) -> f64 {
+    if orbit.outcome == Outcome::Periodic {
+        return 0.0;
+    }
+    let mut before = [0.0; 2];
+    let rates = orbit.batches.iter().map(|sums| {
+        let [time, advance] = [sums.time(), sums.advance()];
+        let rate = (advance - before[1]) / (time - before[0]);
+        before = [time, advance];
+        rate
+    });
+    standard_error(&rates.collect::<Vec<_>>())
+}
 
 impl<const D: usize, const N: usize, const AUTONOMOUS: bool> Face<D>
     for TextSystem<D, N, AUTONOMOUS>
@@ -71,6 +88,8 @@ impl<const D: usize, const N: usize, const AUTONOMOUS: bool> Face<D>
         outputs.extend(values);
         outputs.extend(sums.rest(program).iter().map(|it| it / sums.time()));
         outputs.extend(sums.events(program).iter().map(|it| it / cycles));
+        outputs.extend(text.drift.map(|_| speed_error(orbit)));
+        outputs.resize(self.description().outputs.len(), f64::NAN);
         Outputs::new(self.description(), &outputs)
     }
 }

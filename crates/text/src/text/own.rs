@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use capsulemap_models::description::{Description, OutputDescription, OwnOutputs, Roles};
+use capsulemap_models::description::{Description, Kept, OutputDescription, OwnOutputs, Roles};
 use capsulemap_models::quantity::Quantity;
 use capsulemap_models::quantity::shown::words;
 use capsulemap_models::quantity::units::dimension_of;
@@ -96,7 +96,7 @@ fn output(own: Own) -> OutputDescription {
         shown: words(kept(label(name, own.meaning.as_deref())), of_unit(dimension)),
         meaning: kept(own.meaning.unwrap_or(own.expression)),
     };
-    OutputDescription { quantity, tag: name, is_smooth: own.is_smooth, is_optional: false }
+    OutputDescription { quantity, tag: name, is_smooth: own.is_smooth, kept: Kept::Always }
 }
 
 /// What an own output is called in figures: its meaning, or its name as words.

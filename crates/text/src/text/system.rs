@@ -129,6 +129,10 @@ impl<const D: usize, const N: usize, const AUTONOMOUS: bool> System<D>
         Metric::new(std::array::from_fn(|i| scales[i]))
     }
 
+    fn gained(observed: &Sums<f64>) -> Option<f64> {
+        Some(observed.advance())
+    }
+
     fn observer(&self, _points: usize) -> Sums<f64> {
         Sums::none(self.program)
     }

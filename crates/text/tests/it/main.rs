@@ -17,4 +17,7 @@ mod own;
 mod random_texts;
 mod sampled;
 mod six;
+mod spectra;
 mod units;
+#[path = "../../../engine/tests/it/volumes.rs"]
+mod volumes;

@@ -96,7 +96,7 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
             (state.r, state.y1, state.x2, state.y2);
         motion.force[0] = self.springs.force(&mode.touched(), state);
         motion.decay[0] =
-            if mode.slides().any() { drag.decay_start(state.y2) } else { L::splat(0.0) };
+            if mode.slides().any() { drag.decay_start(mode.slip, state.y2) } else { L::splat(0.0) };
         drag.write_exponent_term(mode.slip, motion, 0);
         self.springs.begin_squares(state.r, &mut jet.squares);
         self.begin_folds(state, jet);

@@ -97,7 +97,7 @@ impl<L: Lane> Ground<L> {
         let (one, drag) = (L::splat(1.0), self.towards(slip));
         let dry = match drag.law {
             Resistance::CoulombStribeck => {
-                slip * drag.dynamic * (one + self.stribeck * drag.decay_start(y2))
+                slip * drag.dynamic * (one + self.stribeck * drag.decay_start(slip, y2))
             }
             Resistance::Coulomb => slip * drag.dynamic,
             Resistance::Medium => L::splat(0.0),

@@ -44,7 +44,7 @@ impl<L: Lane, const FOLDS: bool> GeneralCapsule<L, FOLDS> {
         let (any_slides, drag) = (mode.slides().any(), self.ground.towards(mode.slip));
         let motion = &mut jet.motion;
         (motion.x2[0], motion.y2[0]) = (state.x2, state.y2);
-        motion.decay[0] = if any_slides { drag.decay_start(state.y2) } else { zero };
+        motion.decay[0] = if any_slides { drag.decay_start(mode.slip, state.y2) } else { zero };
         drag.write_exponent_term(mode.slip, motion, 0);
         self.begin_folds(state, jet);
         let inverse_mass = self.share_of_mass * self.inverse_m1;
