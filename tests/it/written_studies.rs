@@ -8,7 +8,7 @@ use capsulemap::capsule::{
     Switching,
 };
 use capsulemap::description::Presence;
-use capsulemap::orbit::{Exponents, HistorySpan, Protocol};
+use capsulemap::orbit::Protocol;
 use capsulemap::quantity::Allowed;
 use capsulemap::study::{
     Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Draws, FirstOrbit, Grid, Inherit,
@@ -17,6 +17,7 @@ use capsulemap::study::{
 
 use super::random_numbers::Random;
 
+mod drawn_protocols;
 mod drawn_ramps;
 
 /// The coordinate in place of which one stands.
@@ -84,33 +85,6 @@ impl Random {
     fn state(&mut self) -> State<f64> {
         let [r, y1, y2] = [(); 3].map(|()| self.number(Allowed::Finite));
         State::of([r, y1, 0.0, y2])
-    }
-
-    fn protocol(&mut self) -> Protocol {
-        let tolerance = |random: &mut Random| libm::exp10(random.uniform(-15.0, -3.0));
-        let from = HistorySpan {
-            cycles: 1 + self.below(9) as u32,
-            per_cycle: 1 + self.below(99) as u32,
-            from_start: self.is_so(),
-        };
-        let exponent_cycles = self.one(&[0, 16, 2048, 1_000_000]);
-        let all = exponent_cycles > 0 && self.is_so();
-        Protocol {
-            exponents: if all { Exponents::All } else { Exponents::Largest },
-            mean_error: self.is_so().then(|| self.uniform(1e-5, 0.5)),
-            tolerance: tolerance(self).clamp(1e-15, 1e-3),
-            recurrence: tolerance(self).clamp(1e-15, 1e-3),
-            max_cycles: 1 + (self.bits() >> self.one(&[1, 50])) / 2,
-            max_steps: 1 + (self.bits() >> self.one(&[1, 50])) / 2,
-            max_period: 1 + self.below(100_000),
-            measured_cycles: 1 + self.below(1000) as u64,
-            exponent_cycles,
-            exponent_error: self.uniform(1e-4, 0.1),
-            points: self.below(100),
-            impact_points: self.below(100),
-            accelerate: self.is_so(),
-            history: self.is_so().then_some(from),
-        }
     }
 
     /// A parameter that neither stands in place of one of these coordinates nor has one of them in its place.
