@@ -14,10 +14,15 @@ type Single = <D3 as System<3>>::Single;
 /// The cycles over which volumes are compared.
 const CYCLES: usize = 3;
 
-/// The logarithms of what some cycles make of three directions.
-fn stretched(system: &D3, point: [f64; 3]) -> [f64; 3] {
-    let reflected: Matrix<3> =
-        std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j)) - 2.0 / 3.0));
+/// The logarithms of what some cycles make of three directions, of which as many are orthonormal as a text has coordinates: along the
+/// others nothing is apart.
+fn stretched(system: &D3, coordinates: usize, point: [f64; 3]) -> [f64; 3] {
+    let reflected: Matrix<3> = std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let own = i.max(j) < coordinates;
+            f64::from(u8::from(i == j)) - if own { 2.0 / coordinates as f64 } else { 0.0 }
+        })
+    });
     let passage = OneByOne.passage(ReturnRequest {
         system: system.clone(),
         along: None,
@@ -46,7 +51,7 @@ fn compare(
     for _ in 0..count {
         let mut point = [0.0; 3];
         point[..coordinates].iter_mut().for_each(|x| *x = random.uniform(-0.8, 0.8));
-        let mut logs = stretched(&system, point);
+        let mut logs = stretched(&system, coordinates, point);
         logs.sort_by(|a, b| b.total_cmp(a));
         let (own, absent) = logs.split_at(coordinates);
         assert!(absent.iter().all(|it| *it == f64::NEG_INFINITY), "{logs:?}");
