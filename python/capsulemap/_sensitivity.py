@@ -69,8 +69,8 @@ def sensitivity(
             values = [[it["quantities"][quantity][key] for quantity in quantities] for it in found]
             dataset[key] = (("output", "quantity"), numpy.array(values, float), {"units": "1", "long_name": label})
     for name, label in NUMBERS.items():
-        values = [numpy.nan if it[name] is None else it[name] for it in found]
-        dataset[name] = ("output", numpy.array(values), {"long_name": label})
+        numbers = [numpy.nan if it[name] is None else it[name] for it in found]
+        dataset[name] = ("output", numpy.array(numbers), {"long_name": label})
     dataset.attrs.update({name: told[name] for name in ("confidence", "resamples", "seed")})
     return dataset
 

@@ -17,7 +17,7 @@ const EXAMPLES: &str = "\
 Examples:
   capsulemap sensitivity results/sensitivity/sensitivity.h5
   capsulemap sensitivity FILE.h5 --of progression_speed,power --json
-  capsulemap sensitivity FILE.h5 --of power --resamples 5000 --confidence 0.99 --csv
+  capsulemap sensitivity FILE.h5 --of power --resamples 5000 --csv
 
 The study draws its cases by `kind = \"saltelli\"` under [draws]. S1, the first order, is the share of the variance that a quantity \
 makes by itself; ST, the total order, the share that it takes part in. S1 as in Saltelli and others (2010), ST as in Jansen (1999), \

@@ -48,8 +48,12 @@ fn the_example_of_the_document_has_its_points() {
         let on_curve = column(&dataset, &format!("curve_{name}"));
         assert!([on_curve[after], on_curve[after + 1]].contains(&of[name][at]), "{name}");
     }
-    let figure = fs::read_to_string(dir.path("results/forced/curves.svg")).expect("a figure");
-    assert!(figure.contains("resonance 1:1"), "the legend has it");
+    let words = ["--kind", "curves", "--name", "words", "--formats", "svg", "--svg-text"];
+    dir.run(&[&["figure", "results/forced/forced.h5"], &words[..]].concat()).done();
+    let figure = fs::read_to_string(dir.path("results/forced/words.svg")).expect("a figure");
+    let words: String =
+        figure.split('<').filter_map(|it| it.split_once('>')).map(|it| it.1).collect();
+    assert!(words.contains("resonance 1:1"), "the legend has it: {words}");
 }
 
 /// The frequencies of the folds along the branch of `studies/regions.toml` near a frequency, at an amplitude of the drive [N].

@@ -239,8 +239,10 @@ fn a_python_reader_finds_branches() {
 fn any_number_of_threads_gives_the_same_branches() {
     let study = study();
     let one = continue_branches(&study, Some(1), || ()).expect("a run");
+    // As they are shown, with all digits: outputs that are not computed on branches are no numbers, which equal none.
     for threads in [Some(2), Some(5), None] {
-        assert_eq!(one, continue_branches(&study, threads, || ()).expect("a run"), "{threads:?}");
+        let other = continue_branches(&study, threads, || ()).expect("a run");
+        assert!(format!("{one:?}") == format!("{other:?}"), "{threads:?}");
     }
     assert_eq!(one.len(), 3);
 }
@@ -261,7 +263,7 @@ fn branches_and_cases_share_a_file_in_either_order() {
     assert!(store::has_branches(&alone) && !store::has_cases(&alone));
     let again = dir.run(&["continue", "s.toml", "--formats", "svg"]).done();
     assert!(
-        again.err.contains("s.h5: branches are there already") && again.out.is_empty(),
+        again.err.contains("s.h5: branches and ramps are there already") && again.out.is_empty(),
         "{}",
         again.err
     );
@@ -318,7 +320,8 @@ fn another_text_of_the_same_cases_keeps_them() {
     assert_eq!(both.texts["study"], other);
     // Branches belong to the text of their study.
     dir.put("s.toml", STUDY);
-    continue_branches(&[]).refused(&["holds branches of a study with another text", "--overwrite"]);
+    continue_branches(&[])
+        .refused(&["holds branches or ramps of a study with another text", "--overwrite"]);
     continue_branches(&["--overwrite"]).done();
     dir.put("s.toml", other);
     dir.run(&["continue", "s.toml", "--output", "b.h5", "--no-figures"]).done();

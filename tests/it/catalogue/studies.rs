@@ -25,6 +25,7 @@ samples_per_cycle = 12
 [protocol]
 points = 6
 impact_points = 4
+exponents = "all"
 [[branches]]
 name = "moving on"
 along = "omega"
@@ -50,6 +51,7 @@ name = "start_y1"
 values = ["-0.4 m/s", "0.4 m/s"]
 [protocol]
 max_cycles = 200
+exponents = "all"
 "#,
     r#"
 [parameters]

@@ -208,7 +208,7 @@ fn a_section_point_is_the_list_of_its_coordinates() {
 fn a_description_whose_parts_do_not_fit_together_says_which() {
     assert_eq!(CAPSULE.faults(3), Vec::<String>::new());
     let faults = CAPSULE.faults(2);
-    assert_eq!(faults.len(), 6, "{faults:?}");
+    assert_eq!(faults.len(), 7, "{faults:?}");
     assert!(faults[0].starts_with("on_section has 3 entries"), "{faults:?}");
     // The roles of another model name what this one does not have, and its histories have no coordinates.
     let faults = OTHER.faults(0);
