@@ -158,7 +158,7 @@ fn commands_take_them(dir: &WorkDir) {
         "--formats",
         "svg",
     ]);
-    assert!(drawn.done().out.contains(".svg"));
+    assert!(drawn.done().err.contains(".svg"));
     let told = dir.run(&["simulate", "--study", FILE, "--case", "20"]).done().out;
     assert!(told.contains("speed_per_power"), "{told}");
     dir.run(&["report", FILE]).done();

@@ -243,7 +243,9 @@ fn an_inherited_start_lies_on_the_section() {
     let records = records(&study);
     assert_eq!([records[0].start_phase, records[1].start_phase], [start, section]);
     let case = Case { start: records[1].start.clone(), start_phase: section, ..study.case(1) };
-    assert_eq!(records[1].orbit, settle_case(&case, &study.protocol));
+    // As they are shown, with all digits: outputs that were not asked for are no numbers, which equal none.
+    let [own, other] = [&records[1].orbit, &settle_case(&case, &study.protocol)];
+    assert_eq!(format!("{own:?}"), format!("{other:?}"));
 }
 
 #[test]
