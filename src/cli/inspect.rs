@@ -20,7 +20,7 @@ Examples:
   capsulemap inspect results/overview/overview.h5
   capsulemap inspect FILE.h5 --json | jq .variables.progression_speed
   capsulemap inspect BASIN.h5 --settled-within 20,50,100
-  capsulemap inspect BASIN.h5 --density start_r=\"0 mm,2 mm\" --density start_y1=0,0.5
+  capsulemap inspect BASIN.h5 --density start_r=\"0 mm,2 mm\"
   capsulemap inspect FILE.h5 --study > again.toml";
 
 /// Say what is in a file of results.

@@ -327,7 +327,7 @@ fn another_text_of_the_same_cases_keeps_them() {
     dir.run(&["continue", "s.toml", "--output", "b.h5", "--no-figures"]).done();
     dir.put("s.toml", STUDY);
     dir.run(&["sweep", "s.toml", "--output", "b.h5"])
-        .refused(&["branches of a study with another text"]);
+        .refused(&["branches or ramps of a study with another text"]);
 }
 
 #[test]

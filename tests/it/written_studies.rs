@@ -7,8 +7,8 @@ use capsulemap::capsule::{
     CapsuleParameters as _, DriveKind, Parameter, Parameters, Reaction, Resistance, State,
     Switching,
 };
-use capsulemap::description::Presence;
-use capsulemap::orbit::Protocol;
+use capsulemap::description::{Kept, Presence};
+use capsulemap::orbit::{Exponents, Protocol};
 use capsulemap::quantity::Allowed;
 use capsulemap::study::{
     Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Draws, FirstOrbit, Grid, Inherit,
@@ -175,7 +175,9 @@ impl Random {
         study.section_phase = unless(Coordinate::SectionPhase, self.number(Allowed::Finite));
         study.protocol = self.protocol();
         if self.is_so() {
-            study.outputs = self.some(&CAPSULE.outputs().collect::<Vec<_>>());
+            let all = study.protocol.exponents == Exponents::All;
+            let asked = CAPSULE.outputs().filter(|it| all || it.kept() != Kept::WithExponents);
+            study.outputs = self.some(&asked.collect::<Vec<_>>());
         }
         for number in 0..if has_branches { self.below(3) } else { 0 } {
             let name = format!("{number}{}", self.text(&[]));
