@@ -9,16 +9,13 @@ use super::kind::Names;
 use super::panel::Panel;
 use super::style::{GREEN, PURPLE, QUASI_PERIODIC, REFERENCE_WIDTH};
 use super::text::Text;
-use super::track::Rows;
+use super::track::{Rows, where_held};
 use super::view::View;
 use crate::description::Description;
 use crate::store::catalogue::{JUMP_POINT, Place, RAMP, RAMP_INDEX, RAMP_NAMES};
 
 /// The colours of ramps, in their order.
 const COLOURS: [RGBColor; 3] = [GREEN, PURPLE, QUASI_PERIODIC];
-
-/// Two values of a parameter closer than this, relative to their size, are the same.
-const SAME: f64 = 1e-6;
 
 /// The ramps that a diagram shows.
 #[derive(Default)]
@@ -53,12 +50,13 @@ impl RampPoints {
         let numbers = Rows::new(view.dataset, RAMP.name);
         let jumps = Rows::new(view.dataset, JUMP_POINT.name);
         let names = view.dataset.texts.get(RAMP_NAMES).map_or("", String::as_str);
+        let fits = where_held(view, RAMP_INDEX, Place::RampFirst, &[x]);
         let factor = view.quantity(x).factor;
         let mut ramps = Vec::new();
         for (number, name) in names.lines().enumerate() {
             let points = numbers.places(number);
             let is_along = points.first().is_some_and(|place| along.one(*place).is_finite());
-            if !is_along || !is_in_view(view, number, x) {
+            if !is_along || !fits.get(number).copied().unwrap_or(false) {
                 continue;
             }
             let panels = outputs.iter().map(|output| {
@@ -132,17 +130,4 @@ impl Shown {
     fn jump_stroke(&self) -> Stroke {
         Stroke { colour: self.colour, width: REFERENCE_WIDTH, dash: Dash::Short }
     }
-}
-
-/// Whether a ramp of the study lies where `view` holds the axes other than `x`.
-fn is_in_view(view: &View<'_>, number: usize, x: &str) -> bool {
-    let count = view.coordinate_values(RAMP_INDEX.name).len();
-    view.axes().into_iter().filter(|axis| *axis != x).all(|axis| {
-        let own = Rows::new(view.dataset, &Place::RampFirst.name(axis));
-        let held = view.held_value(axis).filter(|_| own.count() == count);
-        held.is_none_or(|held| {
-            let value = own.one(number);
-            (value - held).abs() <= SAME * held.abs().max(value.abs())
-        })
-    })
 }

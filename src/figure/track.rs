@@ -5,7 +5,7 @@ use super::symbol::Symbol;
 use super::view::View;
 use crate::description::{Description, Section};
 use crate::store::catalogue::{
-    AT_BRANCH_POINTS, AT_SPECIAL_POINTS, BRANCH_STABLE, INDEX_REQUEST, OrbitColumns, Place,
+    AT_BRANCH_POINTS, AT_SPECIAL_POINTS, BRANCH_STABLE, Entry, INDEX_REQUEST, OrbitColumns, Place,
     REQUEST, REQUEST_ALONG, SPECIAL_AFTER, SPECIAL_KIND, section,
 };
 use crate::store::dataset::Dataset;
@@ -38,10 +38,16 @@ fn orbit_names(
 
 /// Whether each branch of the study lies where `view` holds the axes other than those that are `drawn`.
 pub fn in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
-    let count = view.coordinate_values(REQUEST.name).len();
+    where_held(view, REQUEST, Place::Request, drawn)
+}
+
+/// Whether each of what lies along a dimension, whose parameters are the columns of a place, lies where `view` holds the axes other than
+/// those that are `drawn`.
+pub fn where_held(view: &View<'_>, dimension: Entry, place: Place, drawn: &[&str]) -> Vec<bool> {
+    let count = view.coordinate_values(dimension.name).len();
     let mut fits = vec![true; count];
     for axis in view.axes().into_iter().filter(|axis| !drawn.contains(axis)) {
-        let variable = view.dataset.variable(&Place::Request.name(axis));
+        let variable = view.dataset.variable(&place.name(axis));
         let (Some(variable), Some(held)) = (variable, view.held_value(axis)) else { continue };
         for (fits, value) in fits.iter_mut().zip(variable.values.to_real()) {
             *fits &= (value - held).abs() <= SAME * held.abs().max(value.abs());
