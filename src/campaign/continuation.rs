@@ -1,22 +1,25 @@
-//! Continues the branches of a study, follows its ramps, and puts both into its file, beside the cases that it holds.
+//! Continues the branches of a study, follows its ramps and the boundaries of its map, and puts all into its file, beside the cases that
+//! it holds.
 
 use std::time::Instant;
 
 use super::beside::Beside;
 use super::error::CampaignError;
 use super::kept::{Kept, check_branches};
+use super::map_cases::Results;
 use super::report::{Event, Report, Reports};
 use super::request::{BranchesDone, Campaign, Complete};
 use super::result_file::prepare;
 use crate::store::{self, Dataset, drop_branches, has_branches};
 
 impl Campaign<'_> {
-    /// Continues the branches of the study, follows its ramps, and puts both into the file; cases that are there stay, and branches of
-    /// this study that are there too, unless they are to be overwritten.
+    /// Continues the branches of the study, follows its ramps and the boundaries of its map, and puts all into the file; cases that are
+    /// there stay, and branches of this study that are there too, unless they are to be overwritten.
     ///
-    /// Fails if the study asks for neither or the file holds results of something else.
+    /// Fails if the study asks for none of them, if it asks for boundaries and the file has no cases, or if the file holds results of
+    /// something else.
     pub fn continue_branches(&self, report: &Report<'_>) -> Result<BranchesDone, CampaignError> {
-        if !self.study.has_branches_or_ramps() {
+        if !self.study.has_more_than_cases() {
             return Err(CampaignError::NoBranches);
         }
         self.study.check_text("the study")?;
@@ -31,10 +34,13 @@ impl Campaign<'_> {
         };
         check_branches(older.as_ref(), self.output, self.overwrite)?;
         reports.send(Event::Accepted(older.as_ref()))?;
-        drop(older);
+        // Only the boundaries of a map need the cases; a file that is open cannot be replaced by others meanwhile.
+        let older = older.filter(|it| self.study.boundaries.is_some() && it.archive.has_cases());
         prepare(self.output)?;
         let begun = Instant::now();
-        let found = Beside::of(self.study, self.machine.threads, &reports)?;
+        let results = older.as_ref().map(|it| Results::File(&it.archive));
+        let found = Beside::of(self.study, results, self.machine.threads, &reports)?;
+        drop(older);
         let time = begun.elapsed();
         self.put(&found, &reports)?;
         Ok(BranchesDone::Now { found, time })

@@ -22,8 +22,10 @@ pub enum CampaignError {
     },
     /// The study has faults.
     Study(Faults),
-    /// The study asks for no branches.
+    /// The study asks for no branches, no ramps and no boundaries.
     NoBranches,
+    /// The study asks for the boundaries of its map, whose cases are not there.
+    NoMap,
     /// The study has no case of this number.
     NoCase {
         /// The number.
@@ -144,6 +146,7 @@ impl CampaignError {
             CampaignError::Path { .. }
             | CampaignError::Study(_)
             | CampaignError::NoBranches
+            | CampaignError::NoMap
             | CampaignError::NoCase { .. }
             | CampaignError::NoResults(_)
             | CampaignError::Unreadable { .. }
@@ -180,8 +183,11 @@ impl fmt::Display for CampaignError {
             CampaignError::Path { path, fault } => write!(f, "{}: {fault}", printable(path)),
             CampaignError::Study(faults) => faults.fmt(f),
             CampaignError::NoBranches => {
-                f.write_str("the study asks for no [[branches]] and no [[ramps]]")
+                f.write_str("the study asks for no [[branches]], no [[ramps]] and no boundaries of a [map]")
             }
+            CampaignError::NoMap => f.write_str(
+                "the boundaries of the map are those of its cases, which are not there; `capsulemap sweep` computes them",
+            ),
             CampaignError::NoCase { index, cases } => {
                 let cases = counted(*cases, "case");
                 write!(f, "there is no case {index}: the study has {cases}, counted from 0")

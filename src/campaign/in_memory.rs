@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use super::beside::Beside;
 use super::error::CampaignError;
 use super::joining::Joining;
+use super::map_cases::Results;
 use super::report::{Event, Report, Reports};
 use super::until_stopped::until_stopped;
 use crate::flow::Stop;
@@ -87,12 +88,13 @@ impl InMemory {
 
     fn compute(&self, wanted: Wanted, reports: &Reports<'_>) -> Result<Dataset, CampaignError> {
         let study = &self.study;
-        if wanted.branches && !study.has_branches_or_ramps() {
+        if wanted.branches && !study.has_more_than_cases() {
             return Err(CampaignError::NoBranches);
         }
         let mut dataset = if wanted.cases { self.cases(reports)? } else { store::frame(study) };
         if wanted.branches {
-            let found = Beside::of(study, self.machine.threads, reports)?;
+            let results = wanted.cases.then_some(Results::Memory(&dataset));
+            let found = Beside::of(study, results, self.machine.threads, reports)?;
             found.put_into(&mut dataset, study);
         }
         Ok(dataset)

@@ -25,6 +25,7 @@ mod joining;
 pub mod kept;
 pub mod kept_fronts;
 pub mod kept_searches;
+mod map_cases;
 pub mod margins;
 pub mod mean_errors;
 pub mod memory;

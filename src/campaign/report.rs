@@ -127,6 +127,8 @@ pub enum Stage {
     Writing,
     /// Branches are continued; a step is a branch of the study.
     Continuing,
+    /// Boundaries of the regions of a map are located and followed; a step is a try between two cases, of as many as are allowed.
+    Outlining,
     /// Cases are computed again; a step is a case.
     Repeating,
     /// Points between the cases are drawn and settled; a step is a point.

@@ -13,19 +13,19 @@ use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of the branches of `study`, and which file keeps it, and its ramps, too.
 pub fn summary(study: &Study, found: &Beside, output: &Path, seconds: f64) -> String {
-    let Beside { continued, ramped } = found;
+    let Beside { continued, ramped, boundaries } = found;
     let all: Vec<&Branch> = continued.iter().flatten().flat_map(|it| &it.branches).collect();
     let (branches, points) = (all.len(), all.iter().map(|it| it.points.len()).sum::<usize>());
     let plural = if branches == 1 { "branch" } else { "branches" };
     let shown = printable(output);
     let of_branches = format!("{branches} {plural}, {points} points");
-    let of_ramps = counted(ramped.len(), "ramp");
-    let told = match (study.branches.is_empty(), study.ramps.is_empty()) {
-        (_, true) => of_branches,
-        (true, false) => of_ramps,
-        (false, false) => format!("{of_branches}, {of_ramps}"),
-    };
-    let mut text = format!("{shown}: {told} in {seconds:.1} s\n");
+    let told = [
+        (!study.branches.is_empty()).then_some(of_branches),
+        (!study.ramps.is_empty()).then(|| counted(ramped.len(), "ramp")),
+        boundaries.as_ref().map(|it| counted(it.curves(), "boundary curve")),
+    ];
+    let told: Vec<String> = told.into_iter().flatten().collect();
+    let mut text = format!("{shown}: {} in {seconds:.1} s\n", told.join(", "));
     for (continuation, outcome) in study.branches.iter().zip(continued) {
         match outcome {
             Ok(found) => write_found(&mut text, continuation, found),
@@ -58,15 +58,20 @@ fn write_found(text: &mut String, continuation: &Continuation, found: &Found) {
             writeln!(text, "  no orbit of twice the period was found off branch {number} at {at}");
     }
     for curve in &found.curves {
-        let Curve { kind, period, points, ends, .. } = curve;
-        let (name, points) = (kind_name(*kind), points.len());
-        let ends = shown_ends(ends.map(Some));
-        let _ = writeln!(text, "  curve of {name}, period {period}: {points} points{ends}");
-        curve.codim2.iter().for_each(|point| write_codim2(text, continuation, point));
+        write_curve(text, continuation, curve);
     }
     if continuation.second.is_some() {
         write_without_curve(text, found);
     }
+}
+
+/// A curve with its points of codimension 2.
+pub(super) fn write_curve(text: &mut String, continuation: &Continuation, curve: &Curve) {
+    let Curve { kind, period, points, ends, .. } = curve;
+    let (name, points) = (kind_name(*kind), points.len());
+    let ends = shown_ends(ends.map(Some));
+    let _ = writeln!(text, "  curve of {name}, period {period}: {points} points{ends}");
+    curve.codim2.iter().for_each(|point| write_codim2(text, continuation, point));
 }
 
 /// A point of codimension 2 with the values of its two parameters.
@@ -310,7 +315,7 @@ to = \"5 N\"
         let not_left = vec![(0, 0)];
         let found = Found { branches: vec![branch, ring], curves: vec![curve], not_left };
         let continued = [Ok(found), Err(NotContinued::NoOrbit)];
-        let found = Beside { continued: continued.to_vec(), ramped: Vec::new() };
+        let found = Beside { continued: continued.to_vec(), ramped: Vec::new(), boundaries: None };
         let text = summary(&study, &found, Path::new("a.h5"), 2.0);
         let expected = "\
 a.h5: 2 branches, 8 points in 2.0 s

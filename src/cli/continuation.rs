@@ -1,10 +1,11 @@
-//! `capsulemap continue`: the branches and ramps of a study, into the file of its results.
+//! `capsulemap continue`: the branches and ramps of a study and the boundaries of its map, into the file of its results.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
 
+use super::boundary_summary;
 use super::branch_summary::summary;
 use super::drawing::{FormatChoice, draw_from, formats, rehearse};
 use super::failure::Failure;
@@ -25,11 +26,11 @@ Examples:
   capsulemap continue STUDY.toml --output /data/branches.h5 --threads 2
   capsulemap sweep STUDY.toml && capsulemap continue STUDY.toml --formats pdf";
 
-/// Continue periodic orbits in parameters, and follow motions along ramps of them.
+/// Continue periodic orbits in parameters, and follow motions along ramps of them and the boundaries of maps.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Continue {
-    /// The study, a TOML file with [[branches]] or [[ramps]].
+    /// The study, a TOML file with [[branches]], [[ramps]], or a [map] with boundaries, which `sweep` has computed.
     study: PathBuf,
     /// The file to add them to; results/NAME/NAME.h5 for a study NAME.toml by default.
     #[arg(long, value_name = "FILE.h5")]
@@ -54,9 +55,9 @@ impl Continue {
     pub fn run(&self) -> Result<(), Failure> {
         let name = printable(&self.study).to_string();
         let study = read_study(&self.study)?;
-        if !study.has_branches_or_ramps() {
+        if !study.has_more_than_cases() {
             let message = format!(
-                "{name}: asks for no [[branches]] and no [[ramps]]; studies/README.md shows how"
+                "{name}: asks for no [[branches]], no [[ramps]] and no boundaries of a [map]; studies/README.md shows how"
             );
             return Err(Failure::request(message));
         }
@@ -98,13 +99,17 @@ impl Continue {
             BranchesDone::Before(file) => Ok(file.archive),
             BranchesDone::Now { found, time } => {
                 let of_ramps = ramp_summary::summary(study, &found.ramped);
-                print(&(summary(study, &found, output, time.as_secs_f64()) + &of_ramps))?;
+                let of_boundaries = study.boundaries.zip(found.boundaries.as_ref());
+                let of_boundaries =
+                    of_boundaries.map(|(asked, it)| boundary_summary::summary(&asked, it));
+                let of_branches = summary(study, &found, output, time.as_secs_f64());
+                print(&(of_branches + &of_ramps + &of_boundaries.unwrap_or_default()))?;
                 store::open(output).map_err(Failure::machine)
             }
         }
     }
 
-    /// Draws the figures as if no branch could be continued and no ramp followed.
+    /// Draws the figures as if no branch could be continued, no ramp followed and no boundary located.
     fn rehearse(
         &self,
         campaign: &Campaign<'_>,

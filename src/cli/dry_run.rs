@@ -53,7 +53,7 @@ fn text(campaign: &Campaign<'_>, task: Task, blocks: &BlockStatus, probe: &Probe
     let memory = memory(study, machine.threads(), probe);
     let [computing, joining] = [memory.computing, memory.joining].map(size);
     let seconds = seconds(probe, left, machine.threads());
-    let has_more = study.has_branches_or_ramps();
+    let has_more = study.has_more_than_cases();
     let more = if has_more { ", and more for branches and ramps" } else { "" };
     let beside = match (has_attractors(study), has_more) {
         (true, false) => ", and more for attractors",

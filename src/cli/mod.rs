@@ -7,6 +7,7 @@ mod attractor_list;
 mod basin_list;
 mod asked_density;
 mod block_progress;
+mod boundary_summary;
 mod branch_summary;
 mod check;
 mod claim_text;

@@ -147,7 +147,7 @@ impl<'a> Watch<'a> {
 
 /// Progress of each stage, once it has begun.
 #[derive(Default)]
-pub struct Stages([OnceLock<Progress>; 10]);
+pub struct Stages([OnceLock<Progress>; 11]);
 
 impl Stages {
     /// Shows the events of stages, and no others.
@@ -170,6 +170,7 @@ fn what(stage: Stage) -> &'static str {
         Stage::Linking => "links of attractors",
         Stage::Writing => "parts written",
         Stage::Continuing => "branches",
+        Stage::Outlining => "tries of boundaries, at most",
         Stage::Repeating => "cases",
         Stage::Starting => "points between the cases",
         Stage::Climbing => "motions at other prices",

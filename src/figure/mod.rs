@@ -87,7 +87,7 @@ pub use error::FigureError;
 pub use format::Format;
 pub use kind::Needs;
 pub use output::Place;
-pub use over_map::{MapLine, MapPoint, OverMap, over_map, over_map_variables};
+pub use over_map::{MapLine, MapPoint, OverMap, over_map, over_map_variables, special_symbol};
 pub use shown::{Measured, Shown};
 pub use trade_off_cells::{TradeOffAxis, TradeOffCells, trade_off_cells};
 pub use trade_off_outputs::gain_of;

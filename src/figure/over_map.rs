@@ -11,12 +11,13 @@ use super::plane::Plane;
 use super::shown::Shown;
 use super::style::INK;
 use super::symbol::Symbol;
-use super::track::{Rows, elsewhere, in_view};
+use super::track::{Rows, branches_in_view, elsewhere};
 use super::varied;
 use super::view::View;
 use crate::description::Description;
 use crate::store::catalogue::{
-    AT_BRANCH_POINTS, AT_SPECIAL_POINTS, INDEX_REQUEST, OrbitColumns, Place, SPECIAL_KIND,
+    AT_BRANCH_POINTS, AT_SPECIAL_POINTS, INDEX_REQUEST, OrbitColumns, Place, REQUEST_KIND,
+    SPECIAL_KIND,
 };
 use crate::study::Drawing;
 
@@ -60,7 +61,7 @@ pub fn over_map_variables(drawing: &Drawing, model: &'static Description) -> BTr
     let at_points = Place::Branch.parameters(model);
     let names =
         curves::reads(drawing, model).and([AT_BRANCH_POINTS.branch, AT_SPECIAL_POINTS.branch]);
-    names.and([SPECIAL_KIND]).and(at_points).and(varied::READS).into_set()
+    names.and([SPECIAL_KIND, REQUEST_KIND]).and(at_points).and(varied::READS).into_set()
 }
 
 /// The curves and branches of the results over the two axes of the map that `drawing` asks for, where they lie at the values of
@@ -131,7 +132,7 @@ impl<'v, 'a> Branches<'v, 'a> {
     /// Adds the branches that lie at the values of the axes that are held, and their special points.
     fn add_to(&self, over: &mut OverMap) {
         let dataset = self.view.dataset;
-        let fits = in_view(self.view, &self.axes);
+        let fits = branches_in_view(self.view, &self.axes);
         let request = Rows::new(dataset, INDEX_REQUEST.name);
         let kind = Rows::new(dataset, SPECIAL_KIND.name);
         let flags = self.view.flags(SPECIAL_KIND.name);
@@ -188,6 +189,11 @@ fn line_of(Curve { symbol, period, points, .. }: &Curve) -> MapLine {
         is_dashed: symbol.dash != Dash::None,
         points: points.iter().map(|&(x, y)| [x, y]).collect(),
     }
+}
+
+/// The words and the colour of the special points of a kind, by its name in files.
+pub fn special_symbol(name: &str) -> (&'static str, [u8; 3]) {
+    Symbol::named(name).map_or(("", channels(INK)), |it| (it.words, channels(it.colour)))
 }
 
 /// Red, green and blue of a colour.

@@ -6,7 +6,7 @@ use super::view::View;
 use crate::description::{Description, Section};
 use crate::store::catalogue::{
     AT_BRANCH_POINTS, AT_SPECIAL_POINTS, BRANCH_STABLE, Entry, INDEX_REQUEST, OrbitColumns, Place,
-    REQUEST, REQUEST_ALONG, SPECIAL_AFTER, SPECIAL_KIND, section,
+    REQUEST, REQUEST_ALONG, REQUEST_KIND, SPECIAL_AFTER, SPECIAL_KIND, section,
 };
 use crate::store::dataset::Dataset;
 
@@ -19,7 +19,7 @@ pub fn reads(outputs: &[String], model: &'static Description) -> Names {
     let at_specials = orbit_names(Place::Special, &AT_SPECIAL_POINTS, outputs, model);
     at_points
         .and_all(at_specials)
-        .and([INDEX_REQUEST, BRANCH_STABLE, SPECIAL_AFTER, SPECIAL_KIND])
+        .and([INDEX_REQUEST, REQUEST_KIND, BRANCH_STABLE, SPECIAL_AFTER, SPECIAL_KIND])
         .and(Place::Request.parameters(model))
 }
 
@@ -36,9 +36,22 @@ fn orbit_names(
     Names::of(of_orbits.chain(sections)).and_named(outputs)
 }
 
-/// Whether each branch of the study lies where `view` holds the axes other than those that are `drawn`.
+/// Whether each request lies where `view` holds the axes other than those that are `drawn`: each branch of the study, and each
+/// boundary of its map.
 pub fn in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
     where_held(view, REQUEST, Place::Request, drawn)
+}
+
+/// The same of branches alone: the short one from which a boundary is followed is none that was asked for.
+pub fn branches_in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
+    let kinds = Rows::new(view.dataset, REQUEST_KIND.name);
+    let fits = in_view(view, drawn).into_iter().enumerate();
+    fits.map(|(request, fits)| fits && is_branch(&kinds, request)).collect()
+}
+
+/// Whether a request is a branch of the study; files without boundaries have no kinds.
+fn is_branch(kinds: &Rows, request: usize) -> bool {
+    kinds.one(request) != 1.0
 }
 
 /// Whether each of what lies along a dimension, whose parameters are the columns of a place, lies where `view` holds the axes other than
@@ -60,13 +73,15 @@ pub fn where_held(view: &View<'_>, dimension: Entry, place: Place, drawn: &[&str
 /// none if all are shown.
 pub fn elsewhere(view: &View<'_>, drawn: &[&str]) -> Option<String> {
     let along = view.dataset.variable(REQUEST_ALONG.name).filter(|_| view.drawing.branches)?;
-    let branches = along.values.to_real().into_iter().zip(in_view(view, drawn));
-    let ours = branches.filter(|(code, _)| {
+    let kinds = Rows::new(view.dataset, REQUEST_KIND.name);
+    let requests = along.values.to_real().into_iter().zip(in_view(view, drawn)).enumerate();
+    let branches = requests.filter(|(request, _)| is_branch(&kinds, *request));
+    let ours = branches.filter(|(_, (code, _))| {
         let flag = along.flags.iter().find(|(value, _)| *value as f64 == *code);
         flag.is_some_and(|(_, name)| drawn.contains(&name.as_str()))
     });
     let (shown, hidden): (Vec<bool>, Vec<bool>) =
-        ours.map(|(_, fits)| fits).partition(|fits| *fits);
+        ours.map(|(_, (_, fits))| fits).partition(|fits| *fits);
     let all = shown.len() + hidden.len();
     (!hidden.is_empty()).then(|| format!("{} of {all} branches lie at other values", hidden.len()))
 }
@@ -171,7 +186,7 @@ pub fn tracks(view: &View<'_>, x: &str, output: &str) -> Vec<Track> {
     if dataset.variable(&Place::Branch.name(output)).is_none() {
         return Vec::new();
     }
-    let fits = in_view(view, &[x]);
+    let fits = branches_in_view(view, &[x]);
     let request = Rows::new(dataset, INDEX_REQUEST.name);
     let points = Source::new(dataset, Place::Branch, &AT_BRANCH_POINTS, x, output);
     let specials = Source::new(dataset, Place::Special, &AT_SPECIAL_POINTS, x, output);

@@ -50,12 +50,17 @@ fn lies_beside_cases(variable: &Variable) -> bool {
     variable.dimensions.iter().any(|it| is_beside_cases(it))
 }
 
-/// Adds what came of the branches of `study`, in its order.
-pub fn add_branches(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
-    let flat = Flat::new(&study.branches, continued);
+/// Adds what came of the `branches` of a study and of its boundaries, in their order.
+pub fn add_branches(
+    dataset: &mut Dataset,
+    study: &Study,
+    branches: &[Continuation],
+    continued: &[Continued],
+) {
+    let flat = Flat::new(branches, continued);
     let longest = flat.points.iter().chain(&flat.specials).map(|row| row.point.section.len());
     for (dimension, length) in [
-        (REQUEST, study.branches.len()),
+        (REQUEST, branches.len()),
         (INDEX, flat.branches.len()),
         (BRANCH_POINT, flat.points.len()),
         (BRANCH_CYCLE, longest.max().unwrap_or(0)),
@@ -67,19 +72,20 @@ pub fn add_branches(dataset: &mut Dataset, study: &Study, continued: &[Continued
     ] {
         dataset.put_coordinate(dimension, Values::count(length));
     }
-    let names: Vec<&str> = study.branches.iter().map(|branch| branch.name.as_str()).collect();
+    let names: Vec<&str> = branches.iter().map(|branch| branch.name.as_str()).collect();
     dataset.texts.insert(BRANCH_NAMES.to_owned(), names.join("\n"));
-    add_requests(dataset, study, continued);
+    add_requests(dataset, branches, continued);
     add_index(dataset, &flat);
-    let along = parameters(study.branches.iter().map(|branch| branch.along));
+    let along = parameters(branches.iter().map(|branch| branch.along));
     let points = OrbitTable { place: Place::Branch, own: &AT_BRANCH_POINTS, rows: &flat.points };
     points.add(dataset, &along, &study.outputs);
     let specials =
         OrbitTable { place: Place::Special, own: &AT_SPECIAL_POINTS, rows: &flat.specials };
     specials.add(dataset, &along, &study.outputs);
     add_special_kinds(dataset, &flat);
-    add_curves(dataset, study, &flat);
-    add_codim2(dataset, study, &flat);
+    let of_curves = of_curves(branches);
+    add_curves(dataset, &of_curves, &flat);
+    add_codim2(dataset, &of_curves, &flat);
 }
 
 /// The parameters among `given`, each once, in the order of the model.
@@ -108,16 +114,16 @@ fn by_symbol(dataset: &mut Dataset, entry: Entry, of: impl Iterator<Item = Param
 }
 
 /// The parameter, the start and the result of each branch of the study.
-fn add_requests(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
-    let branches = &study.branches;
+fn add_requests(dataset: &mut Dataset, branches: &[Continuation], continued: &[Continued]) {
+    let model = dataset.model();
     let results = Values::integers(continued.iter().map(result).collect());
     dataset.put_column(REQUEST_RESULT, results).flags = catalogue::results(dataset.model());
     by_symbol(dataset, REQUEST_ALONG, branches.iter().map(|branch| branch.along));
-    if study.base.model().has_drive() {
+    if model.has_drive() {
         reals(dataset, REQUEST_PHASE, branches.iter().map(|branch| branch.section_phase));
     }
     let is_told = |it: &Parameter| branches.iter().any(|branch| branch.parameters.states(*it));
-    for parameter in study.base.model().parameters().filter(is_told) {
+    for parameter in model.parameters().filter(is_told) {
         let values = branches.iter().map(|branch| branch.parameters[parameter]);
         reals(dataset, Place::Request.of(Entry::of_parameter(parameter)), values);
     }
@@ -157,7 +163,7 @@ fn add_special_kinds(dataset: &mut Dataset, flat: &Flat<'_>) {
 }
 
 /// The curves in two parameters; a parameter that a curve does not vary is NaN on it.
-fn add_curves(dataset: &mut Dataset, study: &Study, flat: &Flat<'_>) {
+fn add_curves(dataset: &mut Dataset, of_curves: &[Parameter], flat: &Flat<'_>) {
     let ends = flat.curves.iter().map(|curve| curve.ends);
     add_ends(dataset, [CURVE_END_FIRST, CURVE_END_LAST], ends);
     let mut columns = Columns { dataset, rows: &flat.curve_points };
@@ -165,7 +171,7 @@ fn add_curves(dataset: &mut Dataset, study: &Study, flat: &Flat<'_>) {
     columns.integers(CURVE_KIND, |it| flat.curves[it.curve].kind as i64);
     columns.integers(CURVE_PERIOD, |it| flat.curves[it.curve].period as i64);
     columns.integers(CURVE_THROUGH, |it| flat.curves[it.curve].through as i64);
-    for parameter in of_curves(study) {
+    for &parameter in of_curves {
         columns.reals(Place::Curve.of(Entry::of_parameter(parameter)), |it| {
             flat.curves[it.curve].value(parameter, it.parameters)
         });
@@ -173,13 +179,13 @@ fn add_curves(dataset: &mut Dataset, study: &Study, flat: &Flat<'_>) {
 }
 
 /// The parameters in which curves are continued.
-fn of_curves(study: &Study) -> Vec<Parameter> {
-    let asked = study.branches.iter().filter(|branch| branch.second.is_some());
+fn of_curves(branches: &[Continuation]) -> Vec<Parameter> {
+    let asked = branches.iter().filter(|branch| branch.second.is_some());
     parameters(asked.flat_map(Continuation::varied))
 }
 
 /// The points of codimension 2 on the curves.
-fn add_codim2(dataset: &mut Dataset, study: &Study, flat: &Flat<'_>) {
+fn add_codim2(dataset: &mut Dataset, of_curves: &[Parameter], flat: &Flat<'_>) {
     let count = dataset.model().section.len();
     let coordinates = section(dataset.model());
     let mut columns = Columns { dataset, rows: &flat.codim2 };
@@ -187,7 +193,7 @@ fn add_codim2(dataset: &mut Dataset, study: &Study, flat: &Flat<'_>) {
     columns.integers(CODIM2_CURVE, |it| it.curve as i64);
     columns.integers(CODIM2_AFTER, |it| it.after as i64);
     columns.integers(CODIM2_PERIOD, |it| flat.curves[it.curve].period as i64);
-    for parameter in of_curves(study) {
+    for &parameter in of_curves {
         columns.reals(Place::Codim2.of(Entry::of_parameter(parameter)), |it| {
             flat.curves[it.curve].value(parameter, it.point.parameters)
         });

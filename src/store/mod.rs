@@ -8,6 +8,7 @@ mod block_content;
 mod block_source;
 mod boundary;
 mod branch_columns;
+pub mod boundaries;
 pub mod branches;
 mod ramps;
 pub mod catalogue;
@@ -57,6 +58,7 @@ pub use attribute::{
 pub use block_content::{block_image, packed_bytes};
 pub use block_file::{Summary, Unusable, Written};
 pub use block_folder::{BlockFolder, Company, by_outcome};
+pub use boundaries::add_boundaries;
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
 pub use candidates::{Candidates, candidates, outcome_name, takes_part};
 pub use case_table::{CaseTable, Column};

@@ -15,7 +15,7 @@ const LONGEST_STEP: f64 = 0.02;
 const SHORTEST_STEP: f64 = 1e-9;
 
 /// Points of a branch at most, unless another number is asked for.
-const USUAL_POINTS: usize = 2000;
+pub(super) const USUAL_POINTS: usize = 2000;
 
 /// More points of a branch than this are taken for a slip of the pen.
 const MOST_POINTS: u64 = 1_000_000;
@@ -95,7 +95,7 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
     let parameters = read_place(table, at.as_ref(), study, &varied, None);
     let start = read_own_start(table, study);
     let first = read_first(table);
-    let (longest_step, most_points) = read_steps(table);
+    let (longest_step, most_points) = read_steps(table, LONGEST_STEP);
     let doublings = table.entry("doublings").and_then(|entry| entry.whole(0, MOST_DOUBLINGS));
     let (along, range, parameters) = (along?, range?, parameters?);
     check_within(table, at.as_ref(), &parameters, along, range);
@@ -117,6 +117,7 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
         first,
         doublings: doublings.unwrap_or(0) as u32,
         second,
+        curve_range: None,
         longest_step,
         most_points,
     })
@@ -292,8 +293,8 @@ fn read_first(table: &Table<'_, '_>) -> FirstOrbit {
     }
 }
 
-/// The longest step, as a share of the range, and the number of points at most.
-fn read_steps(table: &Table<'_, '_>) -> (f64, usize) {
+/// The longest step, as a share of the range, unless one is given the `usual` one, and the number of points at most.
+pub(super) fn read_steps(table: &Table<'_, '_>, usual: f64) -> (f64, usize) {
     let step = table.entry("longest_step").and_then(|entry| {
         let step = entry.quantity(Dimension::Number)?;
         let fits = (SHORTEST_STEP..=1.0).contains(&step);
@@ -305,5 +306,5 @@ fn read_steps(table: &Table<'_, '_>) -> (f64, usize) {
         fits.then_some(step)
     });
     let points = table.entry("most_points").and_then(|entry| entry.whole(2, MOST_POINTS));
-    (step.unwrap_or(LONGEST_STEP), points.map_or(USUAL_POINTS, |points| points as usize))
+    (step.unwrap_or(usual), points.map_or(USUAL_POINTS, |points| points as usize))
 }

@@ -23,6 +23,7 @@ impl Study {
             outputs,
             branches,
             ramps,
+            boundaries,
             drawings,
         } = &self.with_varied_of(read);
         let mut compared = Compared { words, faults: Vec::new() };
@@ -40,6 +41,7 @@ impl Study {
         compared.part(refined_by, refine, &read.refine);
         compared.each("branches", branches, &read.branches);
         compared.each("ramps", ramps, &read.ramps);
+        compared.part("map.boundaries", boundaries, &read.boundaries);
         compared.each("figures", drawings, &read.drawings);
         compared.faults
     }

@@ -39,6 +39,8 @@ pub struct Continuation {
     pub doublings: u32,
     /// A second parameter with its range, in which the special points are continued as curves.
     pub second: Option<(Parameter, [f64; 2])>,
+    /// Where the curves stop in the first parameter, the lesser first; where the branch does if none is given. No study file gives one.
+    pub curve_range: Option<[f64; 2]>,
     /// Longest step, as a share of the range.
     pub longest_step: f64,
     /// Points of a branch or curve at most.
@@ -56,6 +58,7 @@ impl Continuation {
             range: self.range,
             doublings: self.doublings,
             second: self.second,
+            curve_range: self.curve_range,
             longest_step: self.longest_step,
             most_points: self.most_points,
             tolerance,

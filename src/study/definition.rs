@@ -6,8 +6,8 @@ use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
 use super::grid::Chain;
 use super::{
-    Axis, CaseSet, Continuation, Coordinate, Direction, Drawing, Grid, Inherit, Ramp, Refine,
-    Refinement,
+    Axis, Boundaries, CaseSet, Continuation, Coordinate, Direction, Drawing, Grid, Inherit, Ramp,
+    Refine, Refinement,
 };
 use crate::description::{Description, Kept, Output, Parameters, State};
 use crate::model::Model;
@@ -48,12 +48,14 @@ pub struct Study {
     pub branches: Vec<Continuation>,
     /// The motions along which a parameter changes steadily.
     pub ramps: Vec<Ramp>,
+    /// How the boundaries between the regions of its map are followed as curves, if they are.
+    pub boundaries: Option<Boundaries>,
     /// The figures to draw.
     pub drawings: Vec<Drawing>,
 }
 
-/// A study without ramps as it is shown: left out of fingerprints, which stay those of studies before there were ramps.
-const NO_RAMPS: &str = ", ramps: []";
+/// A study without ramps and boundaries as it is shown: left out of fingerprints, which stay those of studies before there were any.
+const NONE_BESIDE: &str = ", ramps: [], boundaries: None";
 
 impl Default for Study {
     /// That of the model where none is named, see [`Study::of`].
@@ -80,6 +82,7 @@ impl Study {
             outputs: usual_outputs(&Parameters::of(model), &Protocol::default()),
             branches: Vec::new(),
             ramps: Vec::new(),
+            boundaries: None,
             drawings: Vec::new(),
         }
     }
@@ -116,9 +119,9 @@ impl Study {
         self.refine.as_ref().map(|_| Refinement::of(&self.shape()))
     }
 
-    /// Whether it asks for branches or ramps, which are computed beside its cases.
-    pub fn has_branches_or_ramps(&self) -> bool {
-        !(self.branches.is_empty() && self.ramps.is_empty())
+    /// Whether it asks for branches, ramps or the boundaries of its map, which are computed beside its cases.
+    pub fn has_more_than_cases(&self) -> bool {
+        !(self.branches.is_empty() && self.ramps.is_empty()) || self.boundaries.is_some()
     }
 
     fn grid(&self) -> Option<&Grid> {
@@ -128,8 +131,8 @@ impl Study {
         }
     }
 
-    /// Differs between studies whose cases or records differ in anything; titles, figures, branches, ramps and the
-    /// form in which a study is written make no difference.
+    /// Differs between studies whose cases or records differ in anything; titles, figures, branches, ramps, boundaries
+    /// and the form in which a study is written make no difference.
     pub fn fingerprint(&self) -> String {
         let computed = Study {
             title: String::new(),
@@ -137,12 +140,13 @@ impl Study {
             remarks: Vec::new(),
             branches: Vec::new(),
             ramps: Vec::new(),
+            boundaries: None,
             drawings: Vec::new(),
             ..self.clone()
         };
         let mut hasher = SipHasher13::new();
         // Numbers are shown with all the digits that distinguish them.
-        let shown = format!("{computed:?}").replace(NO_RAMPS, "");
+        let shown = format!("{computed:?}").replace(NONE_BESIDE, "");
         shown.hash(&mut hasher);
         if let Some(equations) = self.base.model().equations {
             equations.tables.hash(&mut hasher);

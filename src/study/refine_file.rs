@@ -1,9 +1,7 @@
-//! What a study file says of cases that need not be followed to the end, or not at all: `[basin]` and `[map]`.
+//! What a study file says of cases that need not be followed to the end, or not at all, as they differ in their starts alone: `[basin]`.
 
-use super::document::{Entry, Table, unknown};
-use super::refinement::AXES;
-use super::{CaseSet, Coordinate, Refine};
-use crate::description::Output;
+use super::CaseSet;
+use super::document::Table;
 
 /// What `[basin]` says, which only a study has whose cases differ in their starts alone.
 pub(super) struct Basin {
@@ -34,64 +32,4 @@ fn read_truth_for(table: &Table<'_, '_>, key: &str, applies: bool, which: &str) 
         entry.fault(format!("{given} is for {which} whose cases differ in their starts alone"));
     }
     entry.truth()
-}
-
-/// Reads `[map]`: the outputs by which a grid of parameters is refined, with the most by which they may differ in a cell.
-pub(super) fn read_map(
-    top: &Table<'_, '_>,
-    case_set: &CaseSet,
-    outputs: &[Output],
-) -> Option<Refine> {
-    let map = top.table("map")?;
-    let refine = map.entry("refine");
-    if refine.is_none() {
-        map.missing("refine", "a table of outputs, each with the most by which it may differ");
-    }
-    let within = refine.as_ref().and_then(|entry| {
-        if let Some(why) = unfit(case_set) {
-            entry.fault(why);
-        }
-        let table = entry.table()?;
-        let names: Vec<(&str, Output)> = outputs.iter().map(|&it| (it.name(), it)).collect();
-        let entries = table.entries();
-        let each = entries.iter().filter_map(|(name, entry)| read_most(name, entry, &names));
-        let mut within: Vec<(Output, f64)> = each.collect();
-        within.sort_by_key(|(output, _)| output.index());
-        if entries.is_empty() {
-            entry.fault("expected at least one output with the most by which it may differ");
-        }
-        Some(within)
-    });
-    map.finish();
-    within.filter(|it| !it.is_empty()).map(Refine::Outputs)
-}
-
-/// Why the cases cannot be refined by their outputs, if they cannot.
-fn unfit(case_set: &CaseSet) -> Option<String> {
-    let varied = case_set.varied();
-    let of_parameters = varied.iter().all(|it| matches!(it, Coordinate::Parameter(_)));
-    match case_set {
-        CaseSet::Grid(grid)
-            if of_parameters && grid.inherit.is_none() && (2..=AXES).contains(&varied.len()) =>
-        {
-            None
-        }
-        _ => Some(format!(
-            "is for grids of 2 to {AXES} axes of parameters whose cases do not inherit their starts"
-        )),
-    }
-}
-
-/// The most by which an output may differ.
-fn read_most(name: &str, entry: &Entry<'_, '_>, known: &[(&str, Output)]) -> Option<(Output, f64)> {
-    let Some(&(_, output)) = known.iter().find(|(other, _)| *other == name) else {
-        entry.fault(unknown("output of this study", name, known.iter().map(|(name, _)| *name)));
-        return None;
-    };
-    let most = entry.quantity(output.dimension())?;
-    if !(most > 0.0 && most.is_finite()) {
-        entry.fault(format!("{most} {} must be above 0", output.unit()));
-        return None;
-    }
-    Some((output, most))
 }

@@ -10,12 +10,13 @@ use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
 use super::draws::Range;
 use super::include;
+use super::map_file::read_map;
 use super::named_model::{check_model, model_in};
 use super::own_outputs::{check_used, read_outputs};
 use super::parameter_table::{ParameterTable, read_parameters};
 use super::protocol_file::read_protocol;
 use super::ramp_file::read_ramps;
-use super::refine_file::{read_basin, read_map};
+use super::refine_file::read_basin;
 use super::start_file::read_start;
 use super::without_effect::given_without_effect;
 use super::{CaseSet, Continuation, Coordinate, Refine};
@@ -62,7 +63,8 @@ fn read_study(top: &Table<'_, '_>) -> Study {
     let protocol = read_protocol(top);
     let basin = read_basin(top, &case_set);
     let outputs = read_outputs(top, &with_parts(&base, &case_set.varied()), &protocol);
-    let refine = read_map(top, &case_set, &outputs).or(basin.refine.then_some(Refine::Attractors));
+    let map = read_map(top, &case_set, &outputs);
+    let refine = map.refine.or(basin.refine.then_some(Refine::Attractors));
     let surroundings = Surroundings { case_set: &case_set, base: &base, start: start.clone() };
     let branches = read_branches(top, &surroundings);
     let ramps = read_ramps(top, &surroundings);
@@ -92,6 +94,7 @@ fn read_study(top: &Table<'_, '_>) -> Study {
         outputs,
         branches,
         ramps,
+        boundaries: map.boundaries,
         case_set,
     }
 }

@@ -7,8 +7,8 @@ use super::draws::Range;
 use super::own_outputs::written;
 use super::toml_text::{Document, inline, list, number, plain_quantity, quantity, text};
 use super::{
-    Axis, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit, Normal, Ramp,
-    Refine, Spacing, Study,
+    Axis, Boundaries, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit,
+    Normal, Ramp, Refine, Spacing, Study,
 };
 use crate::description::{Parameter, Parameters, Presence, State};
 use crate::of::default_model;
@@ -295,11 +295,23 @@ fn write_basin(document: &mut Document, study: &Study) {
             document.put("refine", study.refine.is_some());
         }
     }
-    if let Some(Refine::Outputs(within)) = &study.refine {
+    let refine = study.refine.as_ref().filter(|it| matches!(it, Refine::Outputs(_)));
+    if refine.is_some() || study.boundaries.is_some() {
         document.table("map");
+    }
+    if let Some(Refine::Outputs(within)) = refine {
         let each = within
             .iter()
             .map(|(output, most)| (output.name().to_owned(), quantity(*most, output.dimension())));
         document.put("refine", inline(each));
+    }
+    if let Some(Boundaries { longest_step, most_points, most_tries }) = study.boundaries {
+        let keys = [
+            ("longest_step", number(longest_step)),
+            ("most_points", most_points.to_string()),
+            ("most_tries", most_tries.to_string()),
+        ];
+        let keys = keys.into_iter().map(|(key, value)| (key.to_owned(), value));
+        document.put("boundaries", inline(keys));
     }
 }

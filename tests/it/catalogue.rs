@@ -214,7 +214,7 @@ fn files_hold_what_the_catalogue_says() {
         dir.put("a.toml", text);
         dir.run(&["sweep", "a.toml", "--no-figures"]).done();
         let study = Study::parse("a.toml", text).expect("a study");
-        if study.has_branches_or_ramps() {
+        if study.has_more_than_cases() {
             dir.run(&["continue", "a.toml", "--no-figures"]).done();
         }
         let dataset = store::read(&dir.path("results/a/a.h5")).expect("a result");

@@ -206,7 +206,7 @@ fn branches_are_kept_beside_the_cases_of_a_sweep() {
     assert!(store::has_cases(&both) && !store::has_branches(&both));
     store::keep_branches(&mut both, &branches_alone());
     let mut added = swept;
-    store::add_branches(&mut added, &study, &continued());
+    store::add_branches(&mut added, &study, &study.branches, &continued());
     added.attributes.clone_from(&both.attributes);
     assert_eq!(store::difference(&both, &added), None);
     assert!(store::has_branches(&both) && !store::has_cases(&branches_alone()));

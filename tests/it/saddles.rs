@@ -152,6 +152,7 @@ fn the_saddle_is_the_unstable_orbit_that_continuation_finds() {
         range: [150.0, 170.0],
         doublings: 0,
         second: None,
+        curve_range: None,
         longest_step: 0.005,
         most_points: 5000,
         tolerance: study.protocol.tolerance,

@@ -131,6 +131,7 @@ impl Random {
             },
             doublings: self.below(21) as u32,
             second,
+            curve_range: None,
             longest_step: self.uniform(1e-6, 1.0),
             most_points: 2 + self.below(1_000_000 - 1),
         }

@@ -264,6 +264,7 @@ fn main() {
         range: [1.0, 2.5],
         doublings: 0,
         second: None,
+        curve_range: None,
         longest_step: 0.05,
         most_points: 1000,
         tolerance: protocol.tolerance,

@@ -136,6 +136,7 @@ fn main() {
         range: [0.05, 0.6],
         doublings: 0,
         second: None,
+        curve_range: None,
         longest_step: 0.05,
         most_points: 2000,
         tolerance: protocol.tolerance,

@@ -177,6 +177,7 @@ fn main() {
         range: [0.8, 1.8],
         doublings: 0,
         second: None,
+        curve_range: None,
         longest_step: 0.02,
         most_points: 2000,
         tolerance: protocol.tolerance,

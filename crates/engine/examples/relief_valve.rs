@@ -212,6 +212,7 @@ where
         range,
         doublings,
         second,
+        curve_range: None,
         longest_step,
         most_points,
         tolerance,

@@ -103,6 +103,7 @@ pub static MASS_ON_BELT: Description = Description {
         rest_share: None,
         key_outputs: &[0, 1, 2],
         event_counts: &[],
+        impact_counts: &[],
         exponent: 2,
         exponent_error: 3,
         spectrum: None,

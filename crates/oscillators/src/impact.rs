@@ -121,6 +121,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         rest_share: None,
         key_outputs: &[0, 1],
         event_counts: &[],
+        impact_counts: &[],
         exponent: 1,
         exponent_error: 2,
         spectrum: None,

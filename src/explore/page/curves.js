@@ -34,7 +34,8 @@ function shape(words) {
   return found ? found[1] : (drawn, [x, y], r) => drawn.rect(x - r * 0.8, y - r * 0.8, 1.6 * r, 1.6 * r);
 }
 
-function point(drawn, at, it, radius = 5) {
+/** Draws a special point, by its words and colour. */
+export function point(drawn, at, it, radius = 5) {
   drawn.beginPath();
   shape(it.words)(drawn, at, radius);
   drawn.fillStyle = ink(it);

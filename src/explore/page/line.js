@@ -1,6 +1,7 @@
 // The bifurcation diagram along a line over the map, drawn as it is computed.
 
 import * as ask from "./ask.js";
+import { Branches } from "./branches.js";
 import { element, folded, labelled, parted, say, said, select } from "./element.js";
 import { copyButton, handOver, saveButtons } from "./keep.js";
 import { entry } from "./marks.js";
@@ -38,9 +39,10 @@ export class Line {
     this.legend = element("ul", { className: "legend", ariaLabel: "Points of the diagram" });
     this.saving = element("div", { className: "buttons", hidden: true }, saveButtons("line", "diagram", () => this.figure()));
     this.why = element("p", { className: "note" });
+    this.branches = new Branches(() => this.draw());
     const help = element("p", { id: "line-help", className: "note", textContent: "Click a value for its motion; arrows step along the line, Enter computes there." });
     this.values = element("div");
-    place.append(this.told, labelled("Each value starts", this.start), this.canvas, this.at, this.legend, help, this.values, this.why, this.saving);
+    place.append(this.told, labelled("Each value starts", this.start), this.canvas, this.at, this.legend, help, this.branches.element, this.values, this.why, this.saving);
     this.listen();
   }
 
@@ -62,14 +64,13 @@ export class Line {
     Object.assign(this, { running, asked, line, points: [], study: null, spot: null });
     this.start.value = line.start;
     this.values.replaceChildren();
+    this.branches.clear();
     this.saving.hidden = true;
     this.why.textContent = "";
     handOver("line", "", null);
     this.began = performance.now();
     try {
-      const ends = Object.fromEntries(Object.entries(line.to).map(([name, value]) => [`to_${name}`, value]));
-      const pairs = { ...line.held, ...line.from, ...ends, ...this.spacing(), count: COUNT, start: line.start };
-      await ask.lines("/api/line", pairs, (it) => this.take(it), running.signal);
+      await ask.lines("/api/line", this.pairs(), (it) => this.take(it), running.signal);
       this.finish();
     } catch (it) {
       if (it.name === "AbortError") return;
@@ -79,9 +80,17 @@ export class Line {
     }
   }
 
+  // What is asked of the server.
+  pairs() {
+    const { from, to, held, start } = this.line;
+    const ends = Object.fromEntries(Object.entries(to).map(([name, value]) => [`to_${name}`, value]));
+    return { ...held, ...from, ...ends, ...this.spacing(), count: COUNT, start };
+  }
+
   /** Computes nothing more. */
   stop() {
     this.running?.abort();
+    this.branches.clear();
     this.asked = null;
     handOver("line", "", null);
   }
@@ -114,6 +123,12 @@ export class Line {
     this.canvas.setAttribute("aria-label", `Bifurcation diagram along the line: ${this.summary()}`);
     say(this.told.textContent);
     this.values.replaceChildren(this.table(), copyButton("Copy as CSV", "Values along the line", () => this.csv()));
+    const [axis, ...others] = this.varied();
+    // A branch is followed in one parameter.
+    if (axis && !others.length && !axis.name.startsWith("start_")) {
+      const value = (at) => short(at[axis.name] * axis.factor, 10);
+      this.branches.offer({ points: this.points, pairs: this.pairs(), label: axis.label, value, place: (share) => this.place(share) });
+    }
     this.draw();
   }
 
@@ -124,11 +139,7 @@ export class Line {
     return `${this.points.length} values, ${periodic} periodic; ${parted(label)[0]} from ${short(low, 4)} to ${short(high, 4)} ${unit}`.trim();
   }
 
-  figure() {
-    const { from, to, held, start } = this.line;
-    const ends = Object.fromEntries(Object.entries(to).map(([name, value]) => [`to_${name}`, value]));
-    return { kind: "bifurcation", ...held, ...from, ...ends, ...this.spacing(), count: COUNT, start };
-  }
+  figure() { return { kind: "bifurcation", ...this.pairs() }; }
 
   // The axes along which the line is straight in their logarithms.
   spacing() {
@@ -244,9 +255,11 @@ export class Line {
     if (!this.line) return;
     const x = this.axis(), [above, below] = this.areas(made), shades = colours(), outputs = this.outputs(), [first] = model.section;
     const at = (share) => this.place(share)[this.line.along.name] * this.line.along.factor;
-    const sections = this.points.flatMap((it) => this.section(it).map((value) => value * first.factor));
-    const upper = frame(drawn, above, { ...x, label: "" }, { range: range(sections), label: first.label });
-    const lower = frame(drawn, below, { ...x, label: this.label() }, { range: range(outputs), label: model.main_output.label });
+    const ofPoints = this.points.flatMap((it) => this.section(it).map((value) => value * first.factor));
+    const [sections, mains] = this.branches.ranges().map((all, i) => all.map((value) => value * [first, model.main_output][i].factor).filter(Number.isFinite));
+    const upper = frame(drawn, above, { ...x, label: "" }, { range: range([...ofPoints, ...sections]), label: first.label });
+    const lower = frame(drawn, below, { ...x, label: this.label() }, { range: range([...outputs, ...mains]), label: model.main_output.label });
+    this.branches.draw(drawn, upper, lower, at);
     this.points.forEach((point, i) => {
       const across = upper.x(at(point.share)), { shade, put } = kind(point.outcome);
       [drawn.fillStyle, drawn.strokeStyle, drawn.lineWidth] = [shades[shade], shades[shade], 1];
@@ -276,14 +289,14 @@ export class Line {
 
   explain(shades) {
     const outcomes = [...new Set(this.points.filter((it) => this.section(it).length).map((it) => it.outcome))].sort();
-    const text = JSON.stringify([outcomes, shades]);
+    const text = JSON.stringify([outcomes, shades, this.branches.all.length]);
     if (text === this.legend.dataset.text) return;
     this.legend.dataset.text = text;
     this.legend.replaceChildren(...outcomes.map((outcome) => entry(outcome, (drawn, [x, y]) => {
       const { shade, put } = kind(outcome);
       [drawn.fillStyle, drawn.strokeStyle, drawn.lineWidth] = [shades[shade], shades[shade], 1.5];
       put(drawn, x, y, 3);
-    })));
+    })), ...this.branches.entries());
   }
 }
 

@@ -17,6 +17,7 @@ macro_rules! assets {
 const ASSETS: &[(&str, &[u8])] = assets![
     "ask.js",
     "basin.js",
+    "branches.js",
     "brush.js",
     "cells.js",
     "choices.js",

@@ -57,11 +57,21 @@ impl Line {
     ///
     /// Fails if they are not the same coordinates, or a parameter is out of its bounds along the line.
     pub fn of(explored: &Explored, asked: &Asked) -> Result<Line, Refusal> {
+        Line::with(explored, asked, &[])
+    }
+
+    /// The same of a request that has more names.
+    pub fn with(explored: &Explored, asked: &Asked, more: &[&str]) -> Result<Line, Refusal> {
         let to = asked.coordinates_after("to_", explored.model())?;
         let names: Vec<String> = to.iter().map(|(it, _)| format!("to_{}", it.name())).collect();
         asked.only(
             explored.model(),
-            &names.iter().map(String::as_str).chain(KNOWN).collect::<Vec<_>>(),
+            &names
+                .iter()
+                .map(String::as_str)
+                .chain(KNOWN)
+                .chain(more.iter().copied())
+                .collect::<Vec<_>>(),
         )?;
         let from = asked.coordinates(explored.model())?;
         let inherits = match asked.text("start") {
@@ -86,7 +96,7 @@ impl Line {
 
     /// The study of a line along one axis, with its diagram.
     pub fn study(&self) -> Option<Study> {
-        let [axis] = &self.varied[..] else { return None };
+        let axis = self.axis()?;
         let inherit =
             self.inherits.then(|| Inherit { axis: 0, directions: vec![Direction::Upward] });
         let mut diagram = Drawing::new("bifurcation", DrawingKind::Bifurcation);
@@ -105,14 +115,22 @@ impl Line {
         study.validated("the study of the line").ok()
     }
 
+    /// What varies along it, if that is one coordinate alone.
+    pub fn axis(&self) -> Option<&Axis> {
+        let [axis] = &self.varied[..] else { return None };
+        Some(axis)
+    }
+
+    /// The case at a place with the start of the request.
+    pub fn case(&self, place: usize) -> Case {
+        let mut case = self.first.clone();
+        self.varied.iter().for_each(|it| set(&mut case, it.coordinate, it.values[place]));
+        case
+    }
+
     /// The cases with the starts of the request.
     fn cases(&self) -> Vec<Case> {
-        let cases = (0..self.varied[0].values.len()).map(|number| {
-            let mut case = self.first.clone();
-            self.varied.iter().for_each(|it| set(&mut case, it.coordinate, it.values[number]));
-            case
-        });
-        cases.collect()
+        (0..self.varied[0].values.len()).map(|place| self.case(place)).collect()
     }
 
     /// Sends the study or why there is none, and what each case settles to, as long as somebody listens, and why it ends before
@@ -196,7 +214,7 @@ fn varied(
 }
 
 /// How the values of a coordinate lie between its ends.
-fn spacing(asked: &Asked, coordinate: Coordinate, ends: [f64; 2]) -> Result<Spacing, Refusal> {
+pub fn spacing(asked: &Asked, coordinate: Coordinate, ends: [f64; 2]) -> Result<Spacing, Refusal> {
     let mut logarithmic = asked.text("log").unwrap_or_default().split(',');
     match logarithmic.any(|name| name == coordinate.name()) {
         true if ends.iter().all(|end| *end > 0.0) => Ok(Spacing::Logarithmic),

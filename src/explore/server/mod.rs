@@ -5,6 +5,7 @@ mod answer;
 mod asked;
 mod assets;
 mod basin;
+mod branches;
 mod computations;
 mod described;
 mod explored;
@@ -37,6 +38,7 @@ use access::Access;
 use answer::{Refusal, html, json};
 use asked::Asked;
 use basin::Basin;
+use branches::LineBranch;
 use computations::{Computations, Places};
 use explored::Explored;
 use line::Line;
@@ -151,6 +153,7 @@ fn router(shared: Shared) -> Router {
         .route("/api/motion", of_file(motions, |it, asked| Ok(json(&motion::motion(it, asked)?))))
         .route("/api/figure", get(figure))
         .route("/api/line", get(line))
+        .route("/api/branches", get(branches))
         .route("/api/basin", get(basin))
         .fallback(|| async { Refusal::missing() })
         .layer(from_fn_with_state(shared.clone(), guarded))
@@ -251,4 +254,11 @@ async fn basin(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Resp
     let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
     let heavy = &shared.computations.heavy;
     heavy.stream(move || explored.answer(|it| Basin::of(it, &asked)), Basin::compute).await
+}
+
+async fn branches(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
+    let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
+    let heavy = &shared.computations.heavy;
+    let prepare = move || explored.answer(|it| LineBranch::of(it, &asked));
+    heavy.stream(prepare, LineBranch::compute).await
 }

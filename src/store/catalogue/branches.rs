@@ -1,7 +1,7 @@
 //! The entries of the branches, their special points and their curves.
 
 use super::entry::{Entry, Extent::*, Type::*, entries};
-use super::flags::{codim2_kinds, ends, specials, stabilities};
+use super::flags::{codim2_kinds, ends, pair_states, request_kinds, specials, stabilities};
 
 /// The text of a file that names the branches of the study, one a line.
 pub const BRANCH_NAMES: &str = "branch_names";
@@ -15,6 +15,9 @@ entries! {
         "parameter that is followed";
     REQUEST_PHASE "request_phase" "rad" Table(REQUEST.name), Real, None,
         "phase of the drive at the section";
+
+    REQUEST_KIND "request_kind" "1" Table(REQUEST.name), Category(request_kinds), None,
+        "whether the study asks for the branch, or it leads from a case of its map over a boundary to its neighbour";
 
     INDEX "branch_index" "1" Dimension, Whole, None,
         "branch that was followed";
@@ -114,10 +117,19 @@ entries! {
     CODIM2_MULTIPLIER_IMAG "codim2_multiplier_imag" "1"
         TableRow(CODIM2_POINT.name, BRANCH_MULTIPLIER.name), Real, None,
         "imaginary part of the Floquet multipliers of the period";
+
+    BOUNDARY_STATE "boundary_state" "1" Dimension, Whole, None,
+        "what is known of two neighbouring cases of a map whose motions are of two kinds, by period and impacts, of which one at least repeats";
+    BOUNDARY_STATE_NAME "boundary_state_name" "1" Table(BOUNDARY_STATE.name), Category(pair_states), None,
+        "name of what is known";
+    BOUNDARY_PAIRS "boundary_pairs" "1" Table(BOUNDARY_STATE.name), Whole, None,
+        "pairs of neighbouring cases of which it is known";
+    BOUNDARY_TRIES "boundary_tries" "1" Table(BOUNDARY_STATE.name), Whole, None,
+        "those of them between which the orbits of both were continued to find a boundary";
 }
 
 /// The dimensions of the branches, in the order of files.
-pub const OF_BRANCHES: [Entry; 9] = [
+pub const OF_BRANCHES: [Entry; 10] = [
     REQUEST,
     INDEX,
     BRANCH_POINT,
@@ -127,6 +139,7 @@ pub const OF_BRANCHES: [Entry; 9] = [
     CURVE_INDEX,
     CURVE_POINT,
     CODIM2_POINT,
+    BOUNDARY_STATE,
 ];
 
 /// The columns of every orbit on a branch that are called after no variable of the cases.

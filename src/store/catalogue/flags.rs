@@ -6,7 +6,7 @@ use crate::description::Description;
 use crate::flow::Reason;
 use crate::motion;
 use crate::orbit::{Outcome, Proof};
-use crate::run::{Continued, NotContinued};
+use crate::run::{Continued, NotContinued, PairState};
 use crate::study::Direction;
 
 /// The number of a branch whose motion does not come back to its section.
@@ -57,6 +57,16 @@ pub fn parameters(model: &'static Description) -> Flags {
 /// Why a branch or a curve ends.
 pub fn ends() -> Flags {
     End::NAMES.map(|(name, end)| (end as i64, name.to_owned())).to_vec()
+}
+
+/// What asks for a branch.
+pub fn request_kinds() -> Flags {
+    vec![(0, "branch".to_owned()), (1, "boundary".to_owned())]
+}
+
+/// What is known of two neighbours on a map.
+pub fn pair_states() -> Flags {
+    PairState::NAMES.map(|(name, state)| (state as i64, name.to_owned())).to_vec()
 }
 
 /// Whether an orbit is stable.

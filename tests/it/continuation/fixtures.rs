@@ -182,6 +182,6 @@ pub fn branches_alone() -> Dataset {
 
 /// `dataset` with what came of the branches of `study`.
 pub fn with_branches(mut dataset: Dataset, study: &Study, continued: &[Continued]) -> Dataset {
-    store::add_branches(&mut dataset, study, continued);
+    store::add_branches(&mut dataset, study, &study.branches, continued);
     dataset
 }

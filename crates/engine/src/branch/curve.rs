@@ -102,8 +102,11 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
     if !is_followed(special.kind) || !inside || second == request.along {
         return None;
     }
-    let along = orbits.units[D];
-    let units = std::array::from_fn(|i| *orbits.units.get(i).unwrap_or(&width));
+    let first_range = request.curve_range.unwrap_or(request.range);
+    let along = first_range[1] - first_range[0];
+    let mut units = [width; W];
+    units[..D].copy_from_slice(&orbits.units[..D]);
+    units[D] = along;
     let free = [request.along, second];
     let mut family = orbits.family.clone();
     family.period = period(orbits, special);
@@ -117,7 +120,7 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
         return known;
     }
     let bounds = Bounds::none()
-        .with(D, request.range.map(|end| end / along))
+        .with(D, first_range.map(|end| end / along))
         .with(D + 1, range.map(|end| end / width));
     let control = StepControl::new(bounds, request.longest_step);
     let Joined { points, codim2, ends } =

@@ -54,6 +54,8 @@ pub struct Request<M: System<D>, const D: usize> {
     pub doublings: u32,
     /// A second parameter with its range, in which the special points are followed as curves.
     pub second: Option<(M::Parameter, [f64; 2])>,
+    /// Where the curves stop in the first parameter, the lesser first; where the branch does if none is given.
+    pub curve_range: Option<[f64; 2]>,
     /// Longest step, as a share of the range.
     pub longest_step: f64,
     /// Points of a branch or curve at most.

@@ -38,6 +38,7 @@ pub fn request(
         range,
         doublings: 0,
         second: None,
+        curve_range: None,
         longest_step: 0.02,
         most_points: 1000,
         tolerance: TOLERANCE,

@@ -113,6 +113,7 @@ fn a_branch_whose_orbits_take_longer_and_longer_ends_at_the_longest_wait() {
             range: [1e-3, 0.2],
             doublings: 0,
             second: None,
+            curve_range: None,
             longest_step,
             most_points: 2000,
             tolerance: 1e-12,

@@ -48,6 +48,7 @@ fn followed<M: System<D, Parameter = &'static str>, const D: usize>(
         range,
         doublings: 0,
         second: Some(second),
+        curve_range: None,
         longest_step,
         most_points: 4000,
         tolerance: 1e-12,

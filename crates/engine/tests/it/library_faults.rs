@@ -150,6 +150,7 @@ fn a_parameter_that_a_system_does_not_have_is_an_error() {
         range: [1.4, 1.6],
         doublings: 0,
         second,
+        curve_range: None,
         longest_step: 0.2,
         most_points: 20,
         tolerance: 1e-12,

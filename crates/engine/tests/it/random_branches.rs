@@ -187,6 +187,7 @@ fn assert_independent(chosen: Vec<Drawn>, share: f64) {
                 range: [low, high],
                 doublings: 0,
                 second: None,
+                curve_range: None,
                 longest_step: 0.02,
                 most_points: 2000,
                 tolerance: 1e-12,

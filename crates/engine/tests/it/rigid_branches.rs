@@ -192,6 +192,7 @@ fn branches_of_one_impact_are_those_of_the_closed_form() {
             range,
             doublings: 0,
             second: None,
+            curve_range: None,
             longest_step: 0.02,
             most_points: 300,
             tolerance: 1e-12,

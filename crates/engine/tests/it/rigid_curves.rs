@@ -31,6 +31,7 @@ fn followed(
         range: f,
         doublings: 0,
         second: Some(("w", w)),
+        curve_range: None,
         longest_step,
         most_points: 4000,
         tolerance: 1e-12,

@@ -113,6 +113,7 @@ fn of_branches(
         range,
         doublings: 1,
         second: None,
+        curve_range: None,
         longest_step: 0.03,
         most_points: 4000,
         tolerance: 1e-12,

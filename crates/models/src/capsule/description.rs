@@ -130,6 +130,7 @@ const ON_EVEN_GROUND: Description = Description {
             Output::BackwardSlips as usize,
             Output::Reversals as usize,
         ],
+        impact_counts: &[Output::ImpactsPerCycle as usize, Output::RearImpactsPerCycle as usize],
         exponent: Output::LyapunovExponent as usize,
         exponent_error: Output::LyapunovUncertainty as usize,
         spectrum: Some(SpectrumRoles {

@@ -104,8 +104,8 @@ impl Description {
         let of_spectrum = roles.spectrum.iter().flat_map(SpectrumRoles::all);
         let outputs = outputs.into_iter().chain(of_spectrum).chain(roles.gain_error);
         let outputs = outputs.chain(roles.rest_share).chain(trade_off);
-        let outputs =
-            outputs.chain([roles.key_outputs, roles.event_counts].into_iter().flatten().copied());
+        let lists = [roles.key_outputs, roles.event_counts, roles.impact_counts];
+        let outputs = outputs.chain(lists.into_iter().flatten().copied());
         let of_parameters =
             parameters.filter_map(|it| fault_of_role("parameter", it, self.parameters.len()));
         let of_outputs = outputs.filter_map(|it| fault_of_role("output", it, self.outputs.len()));

@@ -21,6 +21,8 @@ pub struct Roles {
     pub key_outputs: &'static [usize],
     /// How often each event happens in a cycle.
     pub event_counts: &'static [usize],
+    /// How often the motion meets a surface that it may touch, of each such surface, in a cycle.
+    pub impact_counts: &'static [usize],
     /// The largest Lyapunov exponent.
     pub exponent: usize,
     /// Its standard error.
@@ -222,5 +224,10 @@ impl Description {
     /// How often each event happens in a cycle.
     pub fn event_counts(&'static self) -> impl Iterator<Item = Output> {
         self.roles.event_counts.iter().map(move |index| Output::of(self, *index))
+    }
+
+    /// How often the motion meets a surface that it may touch, of each such surface, in a cycle.
+    pub fn impact_counts(&'static self) -> impl Iterator<Item = Output> {
+        self.roles.impact_counts.iter().map(move |index| Output::of(self, *index))
     }
 }

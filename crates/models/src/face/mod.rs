@@ -238,6 +238,7 @@ pub fn follow<M: Face<D>, const D: usize>(request: &Request) -> Result<Found, No
         range: request.range,
         doublings: request.doublings,
         second: request.second.map(|(second, range)| (M::which(second), range)),
+        curve_range: request.curve_range,
         longest_step: request.longest_step,
         most_points: request.most_points,
         tolerance: *tolerance,

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use capsulemap_engine::flow::Event as _;
 use capsulemap_models::description::{
     Chart, CoordinateDescription, Description, DriveRoles, Equations, Kept, MotionDescription,
     OutputDescription, ParameterDescription, Parameters, Presence, Remark, Roles, Rules, Signal,
@@ -51,6 +52,12 @@ fn first_rest(text: &Text) -> usize {
 /// Where the counts of events begin.
 fn first_count(text: &Text) -> usize {
     first_rest(text) + text.frictions.len()
+}
+
+/// The counts of those events at which a surface is met that may be touched.
+fn impact_counts(program: &Program) -> impl Iterator<Item = usize> {
+    let counts = first_count(&program.text)..;
+    counts.zip(&program.events).filter(|(_, event)| event.is_impact()).map(|(count, _)| count)
 }
 
 /// Where all exponents begin, each with its error, and the dimension with its error; before them is the error of the speed of what
@@ -128,6 +135,7 @@ pub fn description(program: &'static Program, equations: Equations) -> &'static 
             rest_share: (!text.frictions.is_empty()).then(|| first_rest(text)),
             key_outputs: list(key_outputs(text)),
             event_counts: list(first_count(text)..first_count(text) + program.events.len()),
+            impact_counts: list(impact_counts(program)),
             exponent: first_of_all(text) + EXPONENT,
             exponent_error: first_of_all(text) + EXPONENT_ERROR,
             spectrum: Some(spectrum_roles(program)),

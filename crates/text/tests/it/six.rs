@@ -60,6 +60,7 @@ where
         range,
         doublings: 0,
         second: None,
+        curve_range: None,
         longest_step: 0.02,
         most_points: 2000,
         tolerance: 1e-12,
