@@ -68,13 +68,13 @@ class Study:
     def run(
         self, *, keep: Keep = None, overwrite: bool = False, blocking: bool = True
     ) -> xarray.Dataset | Job:
-        """Computes its cases, and its branches where it has some: the dataset that its file holds.
+        """Computes its cases, and its branches, ramps and boundaries where it asks for some: the dataset that its file holds.
 
         With ``keep`` the results go to the file at that path ("NAME.h5") as they come: what a run that was interrupted has done stays
         beside it, block by block, in a folder NAME.blocks, and the same call resumes it; ``overwrite`` replaces the results of another study there. Ctrl-C returns what is done,
         with a PartialResultWarning. With ``blocking=False`` it is computed in the background.
         """
-        branches = self._study.branches > 0
+        branches = self._study.has_more_than_cases
         kept = Kept(keep, overwrite)
         return run(self._study, cases=True, branches=branches, kept=kept, blocking=blocking)
 

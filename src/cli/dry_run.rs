@@ -53,14 +53,9 @@ fn text(campaign: &Campaign<'_>, task: Task, blocks: &BlockStatus, probe: &Probe
     let memory = memory(study, machine.threads(), probe);
     let [computing, joining] = [memory.computing, memory.joining].map(size);
     let seconds = seconds(probe, left, machine.threads());
-    let has_more = study.has_more_than_cases();
-    let more = if has_more { ", and more for branches and ramps" } else { "" };
-    let beside = match (has_attractors(study), has_more) {
-        (true, false) => ", and more for attractors",
-        (false, true) => ", and more for branches and ramps",
-        (true, true) => ", and more for attractors, branches and ramps",
-        (false, false) => "",
-    };
+    let more = more_for(&beside_cases(study));
+    let attractors = has_attractors(study).then_some("attractors").into_iter();
+    let beside = more_for(&attractors.chain(beside_cases(study)).collect::<Vec<_>>());
     let figures =
         figures(study).map_or(String::new(), |it| format!(", {} more for a figure", size(it)));
     format!(
@@ -75,6 +70,25 @@ fn text(campaign: &Campaign<'_>, task: Task, blocks: &BlockStatus, probe: &Probe
         counted(probe.blocks, if study.refine.is_some() { "tile" } else { "block" }),
         time(probe.time.as_secs_f64())
     )
+}
+
+/// What `capsulemap continue` adds to the results of a study.
+fn beside_cases(study: &Study) -> Vec<&'static str> {
+    let asked = [
+        (!study.branches.is_empty(), "branches"),
+        (!study.ramps.is_empty(), "ramps"),
+        (study.boundaries.is_some(), "boundaries"),
+    ];
+    asked.into_iter().filter(|(is_asked, _)| *is_asked).map(|(_, name)| name).collect()
+}
+
+/// That more is needed for all of these, if there are any.
+fn more_for(all: &[&str]) -> String {
+    match all {
+        [] => String::new(),
+        [one] => format!(", and more for {one}"),
+        [first @ .., last] => format!(", and more for {} and {last}", first.join(", ")),
+    }
 }
 
 /// The time of what is `left` of the cases, as a part of all, and of what comes after them, in words.

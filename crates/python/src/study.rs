@@ -75,6 +75,12 @@ impl Study {
         self.0.branches.len()
     }
 
+    /// Whether it asks for branches, ramps or the boundaries of its map.
+    #[getter]
+    fn has_more_than_cases(&self) -> bool {
+        self.0.has_more_than_cases()
+    }
+
     /// Begins to compute its cases, its branches, or both: in memory, or into a file where one is given.
     #[pyo3(signature = (cases, branches, file = None, overwrite = false))]
     fn begin(
