@@ -119,6 +119,10 @@ async function check(page, scheme) {
   view.line = await command(page, "name = \"bifurcation\"");
   await page.waitForFunction(() => document.getElementById("line-section").textContent.includes("values in"), null, { timeout: 60_000 });
   await look(page, scheme, "line");
+  await page.click("#branches-button");
+  await page.waitForFunction(() => /branch(es)? of .* in .* s/.test(document.getElementById("branches-told").textContent), null, { timeout: 120_000 });
+  view.branches = await page.textContent("#branches-told");
+  await look(page, scheme, "branches");
 
   await page.click("#basin-button");
   await page.waitForSelector("#basin-section:not([hidden])");

@@ -64,6 +64,7 @@ fn a_person_clicks_compares_and_hands_over() {
         assert_eq!(view["pinned"], 2, "{view}");
         assert_eq!(view["byKeys"], true, "{view}");
         assert_eq!(view["pdf"], "%PDF", "{view}");
+        assert!(text(&view["branches"]).contains("orbits in"), "{view}");
         assert_eq!(view["again"], view["command"], "the address holds the view");
         // The numbers of the table are those of the command that the page hands over.
         let arguments = text(&view["command"]).strip_prefix("capsulemap").expect("a command");
