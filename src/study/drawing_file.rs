@@ -6,7 +6,7 @@ use super::appearance::{Setting, SettingText, Settings, dimension_of};
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
 use super::drawing::{COLOURED_BY, Held, Size, Sweep, Texts, check_panels, check_text};
-use super::{Axis, CaseSet, Coordinate, Drawing, DrawingKind, Refine};
+use super::{Axis, CaseSet, Coordinate, Drawing, DrawingKind, Refine, Varying};
 use crate::description::{Output, Parameter};
 use crate::quantity::{Dimension, parse_quantity};
 
@@ -155,14 +155,14 @@ fn read_settings(table: &Table<'_, '_>) -> Settings {
 }
 
 /// What a figure of this kind can run along: the axes, and the parameters of branches and ramps where it shows them.
-fn abscissae(
+fn abscissae<'a>(
     kind: Option<DrawingKind>,
-    axes: &[Axis],
+    axes: &'a [Axis],
     varied_beside: &[Parameter],
-) -> Vec<(&'static str, &'static str)> {
+) -> Vec<(&'a str, &'a str)> {
     let shows_branches = kind.is_some_and(|kind| kind.keys().continued);
     let varied = varied_beside.iter().filter(|_| shows_branches).copied();
-    let mut names: Vec<_> = axes.iter().map(|axis| axis.coordinate.name()).collect();
+    let mut names = names_along(axes);
     for name in varied.map(Parameter::symbol) {
         if !names.contains(&name) {
             names.push(name);
@@ -173,10 +173,22 @@ fn abscissae(
     names
 }
 
+/// The names of axes, and of what varies along those that are paths.
+fn names_along(axes: &[Axis]) -> Vec<&str> {
+    let mut names = Vec::new();
+    for axis in axes {
+        names.push(axis.name());
+        for varying in axis.varying.iter().filter(|_| axis.path.is_some()) {
+            names.push(varying.coordinate.name());
+        }
+    }
+    names
+}
+
 /// The older name of an axis with the one that it has now, if it has one.
 fn older_name(axis: &Axis) -> Option<(&'static str, &'static str)> {
-    let has_one = axis.coordinate == Coordinate::StartPhase;
-    has_one.then_some((Coordinate::PHASE, axis.coordinate.name()))
+    let has_one = axis.coordinates().any(|it| it == Coordinate::StartPhase);
+    has_one.then_some((Coordinate::PHASE, Coordinate::StartPhase.name()))
 }
 
 /// A name that can stand before the extension of a file.
@@ -291,7 +303,7 @@ fn read_colour_by(
         entry.fault(format!("does not go with a figure of the kind {}", kind.name()));
     }
     let names = outputs.iter().map(|it| it.name()).chain(COLOURED_BY);
-    let names = names.chain(axes.iter().map(|it| it.coordinate.name()));
+    let names = names.chain(names_along(axes));
     let names: Vec<_> = names.map(|name| (name, name)).collect();
     entry.one_of("output, axis or kind", &names).map(str::to_owned)
 }
@@ -308,52 +320,79 @@ fn read_cycles(entry: &Entry<'_, '_>) -> Option<[f64; 2]> {
     range
 }
 
-/// Whether a name is that of an axis, or its older one.
-fn is_named(axis: &Axis, name: &str) -> bool {
-    axis.coordinate.name() == name || older_name(axis).is_some_and(|it| it.0 == name)
+/// What `at` may hold: an axis, or what varies along a path.
+struct Holdable<'a> {
+    /// Its place among the axes.
+    axis: usize,
+    name: &'a str,
+    dimension: Dimension,
+    /// Between which values (SI).
+    range: [f64; 2],
+}
+
+/// What `at` may hold by some name of it.
+fn holdable<'a>(axes: &'a [Axis], name: &str) -> Option<Holdable<'a>> {
+    let of_place = |(place, axis): (usize, &'a Axis)| {
+        let own = |it: &&Varying| {
+            let is_older = older_name(axis)
+                .is_some_and(|(older, now)| older == name && now == it.coordinate.name());
+            it.coordinate.name() == name || is_older
+        };
+        let varying = axis.varying.iter().find(own).map(|it| Holdable {
+            axis: place,
+            name: it.coordinate.name(),
+            dimension: it.coordinate.dimension(),
+            range: range(&it.values),
+        });
+        let path = axis.path.as_deref().filter(|path| *path == name).map(|name| Holdable {
+            axis: place,
+            name,
+            dimension: Dimension::Number,
+            range: [0.0, axis.places().saturating_sub(1) as f64],
+        });
+        varying.or(path)
+    };
+    axes.iter().enumerate().find_map(of_place)
 }
 
 fn read_at(table: &Table<'_, '_>, axes: &[Axis], kind: Option<DrawingKind>) -> Held {
     let (mut at, mut several, mut last) = (BTreeMap::new(), BTreeMap::new(), None);
+    let mut held: Vec<usize> = Vec::new();
     for (name, entry) in table.entries() {
-        match axes.iter().position(|axis| is_named(axis, &name)) {
-            Some(place) if entry.is_list() => {
-                let values =
-                    entry.list().iter().filter_map(|it| value_of(it, &axes[place])).collect();
-                several.insert(place, values);
-                if kind.is_some_and(|kind| !kind.keys().panels) {
-                    let kinds = DrawingKind::with_panels();
-                    entry.fault(format!(
-                        "expected one value for this kind of figure; {kinds} take lists"
-                    ));
-                }
-                last = Some(entry);
-            }
-            Some(place) => {
-                let value = value_of(&entry, &axes[place]);
-                at.extend(value.map(|value| (axes[place].coordinate.name().to_owned(), value)));
-            }
-            None => {
-                let names = axes.iter().map(|axis| axis.coordinate.name());
-                entry.fault(unknown("axis of this study", &name, names));
-            }
+        let Some(found) = holdable(axes, &name) else {
+            entry.fault(unknown("axis of this study", &name, names_along(axes).into_iter()));
+            continue;
+        };
+        if held.contains(&found.axis) {
+            let path = axes[found.axis].name();
+            entry.fault(format!("a second value along `{path}`; hold it by one of its quantities"));
+            continue;
         }
+        held.push(found.axis);
+        if !entry.is_list() {
+            at.extend(value_of(&entry, &found).map(|value| (found.name.to_owned(), value)));
+            continue;
+        }
+        let values = entry.list().iter().filter_map(|it| value_of(it, &found)).collect();
+        several.insert(found.axis, (found.name.to_owned(), values));
+        if kind.is_some_and(|kind| !kind.keys().panels) {
+            let kinds = DrawingKind::with_panels();
+            entry.fault(format!("expected one value for this kind of figure; {kinds} take lists"));
+        }
+        last = Some(entry);
     }
-    let panels: Vec<(String, Vec<f64>)> = several
-        .into_iter()
-        .map(|(place, values)| (axes[place].coordinate.name().to_owned(), values))
-        .collect();
+    let panels: Vec<(String, Vec<f64>)> = several.into_values().collect();
     if let (Err(fault), Some(entry)) = (check_panels(&panels), last) {
         entry.fault(fault);
     }
     (at, panels)
 }
 
-/// The value at which an axis is held; faults are noted.
-fn value_of(entry: &Entry<'_, '_>, axis: &Axis) -> Option<f64> {
-    let value = entry.quantity(axis.coordinate.dimension());
-    if value.is_some_and(|value| !is_within(value, &axis.values)) {
-        let [low, high] = range(&axis.values);
+/// The value at which something is held; faults are noted.
+fn value_of(entry: &Entry<'_, '_>, held: &Holdable<'_>) -> Option<f64> {
+    let value = entry.quantity(held.dimension);
+    if value.is_some_and(|value| !is_within(value, &held.range)) {
+        let [low, high] = held.range;
         let found = entry.shown();
         entry.fault(format!(
             "expected a value within the axis, from {low} to {high} in SI units, found {found}"

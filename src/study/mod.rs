@@ -23,6 +23,8 @@ pub mod named_system;
 mod normal;
 pub mod own_outputs;
 mod parameter_table;
+mod path_file;
+mod path_text;
 mod protocol_file;
 pub mod ramp;
 mod ramp_file;
@@ -39,7 +41,7 @@ mod unknown_name;
 pub(crate) mod without_effect;
 
 pub use appearance::{ColourMap, Colouring, QuantitySettings, ScaleChoice, Setting, Settings};
-pub use axis::{Axis, Coordinate, Spacing};
+pub use axis::{Axis, Coordinate, Spacing, Varying};
 pub use block::spread;
 pub use case_set::CaseSet;
 pub use continuation::{Continuation, FirstOrbit};

@@ -15,6 +15,7 @@ use crate::store::catalogue::{OUTCOME, PERIOD, section};
 use crate::study::axis::set;
 use crate::study::{
     Axis, CaseSet, Coordinate, Direction, Drawing, DrawingKind, Grid, Inherit, Spacing, Study,
+    Varying,
 };
 
 /// Values along the line.
@@ -45,7 +46,7 @@ pub struct Line {
     /// The case at its beginning, with the values of all coordinates but those that vary.
     first: Case,
     /// What varies, one at least, with as many values each.
-    varied: Vec<Axis>,
+    varied: Vec<Varying>,
     /// Whether each case starts where the one before it settled.
     inherits: bool,
     protocol: Protocol,
@@ -91,13 +92,14 @@ impl Line {
             self.inherits.then(|| Inherit { axis: 0, directions: vec![Direction::Upward] });
         let mut diagram = Drawing::new("bifurcation", DrawingKind::Bifurcation);
         diagram.x = Some(axis.coordinate.name().to_owned());
+        let own = Axis::of(axis.coordinate, axis.values.clone());
         let study = Study {
             title: format!("Along {}", axis.coordinate.name()),
             base: self.first.parameters.clone(),
             start: self.first.start.clone().without_drift(),
             start_phase: self.first.start_phase,
             section_phase: self.first.section_phase,
-            case_set: CaseSet::Grid(Grid { axes: vec![axis.clone()], inherit }),
+            case_set: CaseSet::Grid(Grid { axes: vec![own], inherit }),
             protocol: self.protocol,
             drawings: vec![diagram],
             ..Study::of(self.first.parameters.model())
@@ -177,7 +179,7 @@ fn varied(
     from: &[(Coordinate, f64)],
     to: &[(Coordinate, f64)],
     count: usize,
-) -> Result<Vec<Axis>, Refusal> {
+) -> Result<Vec<Varying>, Refusal> {
     let mut varied = Vec::new();
     for &(coordinate, to) in to {
         let Some(&(_, from)) = from.iter().find(|it| it.0 == coordinate) else {
@@ -186,7 +188,7 @@ fn varied(
         };
         if from != to {
             let values = spacing(asked, coordinate, [from, to])?.values(from, to, count);
-            varied.push(Axis { coordinate, values });
+            varied.push(Varying { coordinate, values });
         }
     }
     match varied.is_empty() {

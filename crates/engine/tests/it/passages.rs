@@ -83,7 +83,7 @@ fn so_do_their_derivatives_along_a_parameter() {
                 let of = random.uniform(0.0, Parameter::ALL.len() as f64);
                 let parameter = Parameter::ALL[of as usize];
                 let value = request.system.parameters[parameter];
-                request.along = Some((parameter, value, 0.3));
+                request.along = Some((Varied::One(parameter), value, 0.3));
                 request
             };
             compare(&cases.iter().map(along).collect::<Vec<_>>());
