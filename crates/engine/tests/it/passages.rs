@@ -2,6 +2,7 @@
 
 use capsulemap_engine::flow::{Motion, System};
 use capsulemap_engine::lane::Instructions;
+use capsulemap_engine::orbit::Varied;
 use capsulemap_engine::orbit::measuring::{MeasureRequest, Measured};
 use capsulemap_engine::orbit::measuring_all::measured_side_by_side;
 use capsulemap_engine::orbit::passage::{Integrator, OneByOne, ReturnRequest};
