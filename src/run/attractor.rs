@@ -2,12 +2,12 @@
 
 use std::cmp::Reverse;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use super::cases::{Rayon, RunError, pool};
 use super::infer::infer;
+use super::together::together;
 use super::{FinalMotions, Machine};
 use crate::attractor::{Attractor, Bridge, Label, Links, Table};
 use crate::branch::{ONE_VALUE, SpecialKind, SpecialValue};
@@ -20,8 +20,6 @@ use crate::study::{Axis, CaseSet, Coordinate, Direction, Study, Varying};
 
 /// Lines are searched together that have so many cells: links that take long fill the lanes.
 const LINKS: usize = 32768;
-/// A thread more is worth so many computations, as fewer leave its lanes empty.
-const LEAST: usize = 64;
 
 /// A change of an attractor along the axis, or its beginning or end.
 #[derive(Debug, Clone, PartialEq)]
@@ -309,24 +307,6 @@ impl<'a> Line<'a> {
             }
         }
     }
-}
-
-/// What a thread computes of the places that it is given one after another, each with its place.
-type OfThread<'a, T> = dyn Fn(&mut dyn FnMut() -> Option<usize>) -> Vec<(usize, T)> + Sync + 'a;
-
-/// Computations on all threads, begun in the order of these places, each by the thread that has room for it. Their results by
-/// rising places.
-fn together<T: Send>(places: Vec<usize>, of_thread: &OfThread<'_, T>) -> Vec<T> {
-    let taken = AtomicUsize::new(0);
-    let threads = rayon::current_num_threads().min(places.len().div_ceil(LEAST));
-    let mut results: Vec<(usize, T)> = (0..threads)
-        .into_par_iter()
-        .flat_map_iter(|_| {
-            of_thread(&mut || places.get(taken.fetch_add(1, Ordering::Relaxed)).copied())
-        })
-        .collect();
-    results.sort_by_key(|(place, _)| *place);
-    results.into_iter().map(|(_, result)| result).collect()
 }
 
 /// The attractors of two cells between which the cases lead that have this one of the `directions` of a cell in

@@ -16,6 +16,7 @@ mod drawing_file;
 mod drawing_text;
 pub mod draws;
 pub mod grid;
+mod held_file;
 pub mod include;
 pub(crate) mod layout;
 mod named_model;
