@@ -4,7 +4,7 @@ Numbers are in SI units; texts have units of their own ("2.42 kN/m"). Results ar
 coordinates and attributes of the program's HDF5 files, where ``attrs["units"]`` is the unit of each variable.
 """
 
-from ._axis import Axis, Draws, Normal
+from ._axis import Axis, Draws, Normal, Path
 from ._basins import basin_measures, tipping
 from ._capsulemap import __version__, set_threads
 from ._errors import Fault, MachineError, PartialResultWarning, StudyError, StudyWarning
@@ -38,6 +38,7 @@ __all__ = [
     "Oscillator",
     "Page",
     "PartialResultWarning",
+    "Path",
     "Status",
     "Study",
     "StudyError",

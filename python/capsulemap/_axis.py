@@ -33,6 +33,50 @@ class Axis:
         return {**pairs, "spacing": _text.quoted(self.spacing)}
 
 
+class Path:
+    """Several quantities that vary together along one dimension, which has the name that the mapping of axes gives it.
+
+    ``Path(omega=[60, 70, 80], p_d=["2 N", "2.5 N", "4 N"])`` lists their values, as many of each. With ``points`` each quantity is
+    a pair, its first and its last value: ``Path(points=101, omega=(60, 80), p_d=(2, 4))``; ``spacing`` is "linear" or "logarithmic".
+    """
+
+    __slots__ = ("points", "quantities", "spacing")
+
+    def __init__(self, *, points: int | None = None, spacing: str = "linear", **quantities: object) -> None:
+        self.points = points
+        self.spacing = spacing
+        self.quantities = quantities
+
+    def __repr__(self) -> str:
+        given = {"points": self.points, "spacing": self.spacing} if self.points is not None else {}
+        return f"Path({', '.join(f'{key}={it!r}' for key, it in {**given, **self.quantities}.items())})"
+
+    def _pairs(self, key: str, units: Mapping[str, str | None]) -> dict[str, str]:
+        written = {name: self._written(key, name, of, units.get(name)) for name, of in self.quantities.items()}
+        lengths = {name: len(values) for name, values in written.items()}
+        if len(set(lengths.values())) > 1:
+            told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+            raise _text.unfit(key, f"a path has as many values of each quantity; {told}")
+        places = [_text.inline(dict(zip(written, place, strict=True))) for place in zip(*written.values(), strict=True)]
+        if self.points is None:
+            return {"values": "[" + ", ".join(places) + "]"}
+        if len(places) != 2:
+            raise _text.unfit(key, "a path with points has a pair of each quantity, its first and its last value")
+        ends = {"from": places[0], "to": places[1], "points": _text.plain(key, self.points)}
+        return {**ends, "spacing": _text.quoted(self.spacing)}
+
+    def _written(self, key: str, name: str, values: object, unit: str | None) -> list[str]:
+        return [_text.quantity(f"{key}.{name}", it, unit) for it in _values(values)]
+
+
+def varied(axes: Mapping[str, object]) -> tuple[str, ...]:
+    """The names of what the axes of a study vary."""
+    names: list[str] = []
+    for name, axis in axes.items():
+        names.extend(axis.quantities if isinstance(axis, Path) else [name])
+    return tuple(names)
+
+
 @dataclass(frozen=True)
 class Normal:
     """The range of a draw that has a normal distribution, cut at ``start`` and ``stop``.
@@ -81,6 +125,8 @@ def tables(axes: Mapping[str, object], units: Mapping[str, str | None], drawn: b
             if axis.points is None and not drawn:
                 raise _text.unfit(f"axes[{name!r}]", "an Axis without points is a range for draws; how many points has it?")
             pairs = axis._pairs(f"axes.{name}", unit)
+        elif isinstance(axis, Path):
+            pairs = axis._pairs(f"axes.{name}", units)
         elif isinstance(axis, Normal):
             if not drawn:
                 raise _text.unfit(f"axes[{name!r}]", "a Normal is the range of a draw; it needs draws=")

@@ -47,7 +47,7 @@ class Built:
             raise TypeError(f"expected a Capsule or an Oscillator, found {kind}")
         self._check()
         units = self.system._units()
-        text = self._top() + self.system._head() + self.system._table(tuple(self.axes))
+        text = self._top() + self.system._head() + self.system._table(_axis.varied(self.axes))
         text += _axis.tables(self.axes, units, self.draws is not None)
         if self.draws is not None:
             draws = Draws(self.draws) if isinstance(self.draws, int) else self.draws
@@ -74,7 +74,7 @@ class Built:
         if isinstance(self.draws, bool) or not isinstance(self.draws, (Draws, int, type(None))):
             raise TypeError(f"draws: expected Draws or how many, found {self.draws!r}")
         known = self.system._description()
-        for name in self.axes:
+        for name in _axis.varied(self.axes):
             if f"start_{name}" in known["coordinates"]:
                 raise _text.unfit(f"axes[{name!r}]", f"the start is called start_{name} on an axis")
             if self.basin is not None and name in known["parameters"]:

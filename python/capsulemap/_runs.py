@@ -134,7 +134,8 @@ def sweep(
     """Computes the settled motion of every case of a grid, or of random draws.
 
     ``axes`` maps parameters ("omega") and coordinates of the start ("start_r", "start_phase") to their values, slowest first: an
-    array or list of numbers in SI units or texts with units, or an Axis. ``outputs`` are names of ``system.names["outputs"]``, all of
+    array or list of numbers in SI units or texts with units, or an Axis; the name of a dimension of its own to a Path, along which
+    several vary together. ``outputs`` are names of ``system.names["outputs"]``, all of
     them unless given; ``{"own": {"speed_per_power": "progression_speed/power"}}`` defines one by an expression. With ``draws`` each axis is an Axis or a pair, the range.
     With ``inherit`` each case starts where its neighbour along that axis has settled, in each of the ``directions`` ("upward",
     "downward"). ``refine`` maps outputs to the most by which neighbours may differ: cases are computed only where they do.

@@ -5,8 +5,9 @@ use super::error::CampaignError;
 use super::margins::{Margin, Margins, margin};
 use super::refined_front::{Refinement, Whereabouts};
 use super::report::{Event, Reports, Stage};
-use crate::description::Section;
+use crate::description::{Parameter, Section};
 use crate::model::{Along, Model, Setting};
+use crate::orbit::Varied;
 use crate::run::on_all_threads;
 
 /// So far a parameter is followed, down and up, as a share of its value.
@@ -14,6 +15,7 @@ const REACH: [f64; 2] = [-0.5, 0.5];
 
 /// A motion and one of its parameters, whose margins are sought.
 struct Bounded {
+    parameter: Parameter,
     along: Along,
     /// The parameter's value (SI).
     value: f64,
@@ -39,7 +41,8 @@ impl Refinement<'_> {
         };
         let each = parameters.stated().filter(|(_, value)| *value > 0.0);
         let bounded = each.map(|(parameter, value)| Bounded {
-            along: Along { setting: setting.clone(), parameter, tolerance },
+            parameter,
+            along: Along { setting: setting.clone(), varied: Varied::One(parameter), tolerance },
             value,
             points: points.clone(),
         });
@@ -72,7 +75,7 @@ impl Refinement<'_> {
         let found = found.into_iter().collect::<Result<Vec<Margin>, CampaignError>>()?;
         let both = found.chunks_exact(REACH.len());
         let mut margins = all.iter().zip(both).map(|(it, both)| Margins {
-            parameter: it.along.parameter,
+            parameter: it.parameter,
             at: it.value,
             down: both[0].clone(),
             up: both[1].clone(),

@@ -8,10 +8,19 @@ use crate::description::{Description, Output, Outputs, Parameter, Parameters};
 use crate::orbit::Outcome;
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
+use crate::study::{Axis, Study};
 use crate::tradeoff::{Limit, MOST_LIMITS, Side};
 
 /// A limit is kept to this share of it.
 const KEPT: f64 = 1e-8;
+
+/// Why no motions are sought between cases that lie along a path, where each parameter would be moved by itself.
+pub fn along_path(study: &Study) -> Option<String> {
+    let path = study.axes().iter().find(|axis| axis.path.is_some()).map(Axis::name)?;
+    Some(format!(
+        "`--refine` moves each parameter by itself, and these cases lie along the path `{path}`: leave it out"
+    ))
+}
 
 /// Conditions on motions between the cases.
 #[derive(Debug, Clone, PartialEq, Default)]

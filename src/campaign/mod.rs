@@ -85,8 +85,9 @@ pub use share::Task;
 pub use sobol_indices::{NoIndices, Resampling, SobolIndex, SobolIndices, sobol_indices};
 pub use status::{BlockStatus, Pace, Status};
 pub use study_source::{
-    check_names, is_system_alone, read_study, read_study_or_results, read_system, study_of,
+    check_names, check_paths, is_system_alone, read_study, read_study_or_results, read_system,
+    study_of,
 };
-pub use tipping::BasinsAlong;
+pub use tipping::{BasinsAlong, Stepping};
 pub use trade_off::{Between, TradeOff};
 pub use verify::{Difference, Differs, Sample, Verified, verify};

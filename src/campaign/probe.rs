@@ -202,9 +202,9 @@ fn spread_cases(study: &Study, machine: Machine) -> Result<Vec<Record>, Campaign
     let (CaseSet::Grid(grid), Some(inherit)) = (&study.case_set, study.inherit()) else {
         return Ok(Vec::new());
     };
-    let values = &grid.axes[inherit.axis].values;
-    let length = neighbours(values, 0).len();
-    let parts = if length < values.len() { PARTS } else { 1 };
+    let places = grid.axes[inherit.axis].places();
+    let length = neighbours(places, 0).len();
+    let parts = if length < places { PARTS } else { 1 };
     let begun = Instant::now();
     let mut records: Vec<Record> = Vec::new();
     for number in 0..parts {
@@ -212,7 +212,8 @@ fn spread_cases(study: &Study, machine: Machine) -> Result<Vec<Record>, Campaign
             break;
         }
         let mut grid = grid.clone();
-        grid.axes[inherit.axis].values = neighbours(values, number).to_vec();
+        let some: Vec<usize> = neighbours(places, number).collect();
+        grid.axes[inherit.axis].keep(&some);
         let part = Study { case_set: CaseSet::Grid(grid), ..study.clone() };
         let shape = part.shape();
         let spacing: usize = shape[inherit.axis + 1..].iter().product();

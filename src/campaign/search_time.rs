@@ -1,5 +1,6 @@
 //! How long the search for the attractors of a study takes, measured on parts of it.
 
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use super::error::CampaignError;
@@ -105,29 +106,30 @@ fn part(study: &Study, number: usize, most: usize) -> Study {
         CaseSet::Draws(draws) => draws.truncate(most),
         CaseSet::Grid(grid) => {
             let linked = linked_axis(study);
-            let starts = grid.axes.iter().filter(|axis| axis.coordinate.is_start()).count();
+            let starts = grid.axes.iter().filter(|axis| axis.is_of_starts()).count();
             let lines = grid.axes.len() - starts - usize::from(linked.is_some());
             for (place, axis) in grid.axes.iter_mut().enumerate() {
-                let values = &axis.values;
-                axis.values = match () {
-                    () if Some(place) == linked => neighbours(values, number).to_vec(),
-                    () if axis.coordinate.is_start() => thinned(values, root(most, starts), 0.5),
+                let places = axis.places();
+                let some = match () {
+                    () if Some(place) == linked => neighbours(places, number).collect(),
+                    () if axis.is_of_starts() => thinned(places, root(most, starts), 0.5),
                     () => {
                         let offset = (number as f64 + 0.5) / PARTS as f64;
-                        thinned(values, root(PAIRS / VALUES, lines), offset)
+                        thinned(places, root(PAIRS / VALUES, lines), offset)
                     }
                 };
+                axis.keep(&some);
             }
         }
     }
     part
 }
 
-/// The values of a part of an axis by its number: neighbours, or all where there are few.
-pub(super) fn neighbours(values: &[f64], number: usize) -> &[f64] {
-    let length = VALUES.min(values.len());
-    let first = number * (values.len() - length) / (PARTS - 1);
-    &values[first..first + length]
+/// The places of a part of an axis of so many by its number: neighbours, or all where there are few.
+pub(super) fn neighbours(places: usize, number: usize) -> Range<usize> {
+    let length = VALUES.min(places);
+    let first = number * (places - length) / (PARTS - 1);
+    first..first + length
 }
 
 /// The largest number whose power of so many is at most `most`.
@@ -135,13 +137,13 @@ fn root(most: usize, axes: usize) -> usize {
     (1..).take_while(|it: &usize| it.pow(axes.max(1) as u32) <= most).last().unwrap_or(1)
 }
 
-/// At most so many of the values, evenly spaced, from an offset in the first of the spaces on.
-fn thinned(values: &[f64], most: usize, offset: f64) -> Vec<f64> {
-    if values.len() <= most {
-        return values.to_vec();
+/// At most so many of some places, evenly spaced, from an offset in the first of the spaces on.
+fn thinned(places: usize, most: usize, offset: f64) -> Vec<usize> {
+    if places <= most {
+        return (0..places).collect();
     }
-    let space = values.len() as f64 / most as f64;
-    (0..most).map(|it| values[((it as f64 + offset) * space) as usize]).collect()
+    let space = places as f64 / most as f64;
+    (0..most).map(|it| ((it as f64 + offset) * space) as usize).collect()
 }
 
 /// The mean, with its standard error where there are enough.
@@ -179,7 +181,7 @@ mod tests {
             for number in 0..PARTS {
                 let part = part(study, number, STARTS);
                 assert_eq!(part.shape()[..shape.len()], *shape);
-                let [few, all] = [&part, study].map(|it| &it.axes()[linked].values);
+                let [few, all] = [&part, study].map(|it| &it.axes()[linked].varying[0].values);
                 let first = all.iter().position(|it| it == &few[0]).expect("one of all");
                 assert_eq!(few[..], all[first..first + VALUES]);
                 assert_eq!(first == 284, number == PARTS - 1, "{first}");
@@ -188,6 +190,6 @@ mod tests {
         let places = [0, 2, 3, 4, 8].map(|case| nearest(case, &[3, 4], &[2, 2]));
         assert_eq!(places, [0, 1, 1, 0, 2]);
         assert_eq!([root(16, 1), root(16, 2), root(17, 3), root(1, 0)], [16, 4, 2, 1]);
-        assert_eq!(thinned(&[1.0, 2.0, 3.0, 4.0], 2, 0.5), [2.0, 4.0]);
+        assert_eq!(thinned(4, 2, 0.5), [1, 3]);
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::error::CampaignError;
 use crate::description::Description;
 use crate::quantity::printable::printable;
-use crate::store::catalogue::{STUDY_TEXT, taken_twice};
+use crate::store::catalogue::{CASE, OWN_TEXT, STUDY_TEXT, SYSTEM_TEXT, named, taken_twice};
 use crate::store::{self, Archive, Pipes};
 use crate::study::{Fault, Faults, Study, include, named_system, own_outputs};
 
@@ -28,6 +28,7 @@ pub fn read_study(path: &Path) -> Result<Study, CampaignError> {
         None => Study::parse(&name, &own)?,
     };
     check_names(&name, study.base.model())?;
+    check_paths(&name, &study)?;
     Ok(study)
 }
 
@@ -56,6 +57,27 @@ pub fn check_names(name: &str, model: &'static Description) -> Result<(), Campai
         Fault { line: None, key: key.to_owned(), message }
     });
     let faults: Vec<Fault> = faults.collect();
+    match faults.is_empty() {
+        true => Ok(()),
+        false => Err(Faults { file: name.to_owned(), faults }.into()),
+    }
+}
+
+/// Makes sure that no path of a study is called as something else that results have.
+///
+/// Fails with every such name.
+pub fn check_paths(name: &str, study: &Study) -> Result<(), CampaignError> {
+    let mut faults = Vec::new();
+    for (place, axis) in study.axes().iter().enumerate() {
+        let Some(path) = axis.path.as_deref() else { continue };
+        let texts = [CASE, STUDY_TEXT, SYSTEM_TEXT, OWN_TEXT];
+        if named(path, study.base.model()).is_some() || texts.contains(&path) {
+            let message = format!(
+                "\"{path}\" is the name of something else in results; a path has a name of its own"
+            );
+            faults.push(Fault { line: None, key: format!("axes[{}].name", place + 1), message });
+        }
+    }
     match faults.is_empty() {
         true => Ok(()),
         false => Err(Faults { file: name.to_owned(), faults }.into()),

@@ -5,10 +5,11 @@ use std::path::Path;
 use super::error::CampaignError;
 use super::study_source::study_of;
 use crate::attractor::Label;
+use crate::quantity::Dimension;
 use crate::run::{self, Machine, Step, Steps, Tipping};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_AXIS, OUTCOME};
 use crate::store::{Archive, Values};
-use crate::study::{Axis, Coordinate, Study};
+use crate::study::{Axis, Study};
 
 /// A file of basins along a parameter.
 #[derive(Debug)]
@@ -16,6 +17,15 @@ pub struct BasinsAlong {
     study: Study,
     axis: Axis,
     labels: Vec<Label>,
+}
+
+/// What steps: a parameter, or the place along a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stepping<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its dimension.
+    pub dimension: Dimension,
 }
 
 impl BasinsAlong {
@@ -32,9 +42,9 @@ impl BasinsAlong {
         let study = study_of(archive, path)?;
         let along = archive.frame().attributes.get(ATTRACTOR_AXIS).ok_or_else(none)?;
         let mut axes = study.axes().iter();
-        let axis = axes.find(|it| it.coordinate.name() == along).ok_or_else(none)?.clone();
-        let others = study.axes().iter().filter(|it| it.coordinate != axis.coordinate);
-        let is_start = others.clone().all(|it| it.coordinate.is_start());
+        let axis = axes.find(|it| it.name() == along).ok_or_else(none)?.clone();
+        let others = study.axes().iter().filter(|it| it.name() != along);
+        let is_start = others.clone().all(Axis::is_of_starts);
         if !is_start || others.count() == 0 || study.inherit().is_some() {
             return Err(none());
         }
@@ -50,22 +60,27 @@ impl BasinsAlong {
         Ok(BasinsAlong { study, axis, labels })
     }
 
-    /// The parameter.
-    pub fn along(&self) -> Coordinate {
-        self.axis.coordinate
+    /// The parameter, or the path, whose places are counted from 0.
+    pub fn along(&self) -> Stepping<'_> {
+        let dimension =
+            self.axis.single().map_or(Dimension::Number, |it| it.coordinate.dimension());
+        let single = self.axis.single().map(|it| it.coordinate.name());
+        Stepping { name: single.unwrap_or(self.axis.name()), dimension }
     }
 
     /// The steps from each value of the parameter to the next, or the one between the values that are nearest to two.
     pub fn steps(&self, between: Option<[f64; 2]>) -> Vec<Step> {
-        let values = &self.axis.values;
+        let count = self.axis.places();
+        let single = self.axis.single();
         let nearest = |wanted: f64| {
-            let places = 0..values.len();
-            let off = |place: &usize| (values[*place] - wanted).abs();
+            let places = 0..count;
+            let value = |place: usize| single.map_or(place as f64, |it| it.values[place]);
+            let off = |place: &usize| (value(*place) - wanted).abs();
             places.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0)
         };
         match between {
             Some(ends) => vec![ends.map(nearest)],
-            None => (1..values.len()).map(|at| [at - 1, at]).collect(),
+            None => (1..count).map(|at| [at - 1, at]).collect(),
         }
     }
 

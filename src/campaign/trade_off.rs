@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::answer::{Answer, Named, Refined};
 use super::bounding::bound;
-use super::conditions::{Conditions, normal};
+use super::conditions::{Conditions, along_path, normal};
 use super::conditions_of_draws::OfDraws;
 use super::error::CampaignError;
 use super::kept_fronts::KeptFront;
@@ -119,7 +119,7 @@ impl TradeOff<'_> {
             self.check_tolerances(under, study)?;
         }
         let none = KeptSearches::default();
-        let between = self.between_cases(&conditions)?;
+        let between = self.between_cases(&conditions, study.as_ref())?;
         let gains = found.all.iter().map(|it| it.gain);
         let at_rest = self.at_rest.unwrap_or_else(|| self.of.at_rest(gains));
         let optima = best_of(&found.all, self.direction, Some(at_rest));
@@ -187,9 +187,16 @@ impl TradeOff<'_> {
     /// What is asked of motions between the cases, if they are sought.
     ///
     /// Fails if the conditions cannot be kept between the cases, or gain or price have no derivatives for a search to follow.
-    fn between_cases(&self, conditions: &[Condition]) -> Result<Conditions, CampaignError> {
+    fn between_cases(
+        &self,
+        conditions: &[Condition],
+        study: Option<&Study>,
+    ) -> Result<Conditions, CampaignError> {
         if !matches!(self.between, Between::Sought { .. }) {
             return Ok(Conditions::default());
+        }
+        if let Some(fault) = study.and_then(along_path) {
+            return Err(self.fault(fault));
         }
         let found = Conditions::of(conditions, self.of.cost.model());
         let rough = self.of.both().into_iter().filter(|it| !it.is_smooth());

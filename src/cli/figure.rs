@@ -16,7 +16,7 @@ use crate::experiment::{Column, Presence};
 use crate::figure::{Measured, Place};
 use crate::quantity::Dimension;
 use crate::quantity::printable::printable;
-use crate::store::{self, Archive, Dataset, StoreError, catalogue};
+use crate::store::{self, Archive, StoreError, catalogue, paths_of};
 use crate::study::appearance::dimension_of;
 use crate::study::document::unknown;
 use crate::study::{
@@ -133,7 +133,7 @@ impl Figure {
     }
 
     fn drawing(&self, kind: DrawingKind, archive: &Archive) -> Result<Drawing, Failure> {
-        let (at, panels) = self.held(kind, archive.frame())?;
+        let (at, panels) = self.held(kind, archive)?;
         self.check_colour_by(archive)?;
         let name = self.name.clone().unwrap_or_else(|| self.free_name(kind, archive));
         let drawing = Drawing {
@@ -161,9 +161,12 @@ impl Figure {
         if COLOURED_BY.contains(&name) || archive.unit(name).is_some() {
             return Ok(());
         }
-        let axes = archive.frame().coordinates.iter().map(|(name, _)| name.as_str());
+        let holdable = holdable(archive);
+        if holdable.iter().any(|it| it.name == name) {
+            return Ok(());
+        }
+        let axes = holdable.iter().map(|it| it.name.as_str());
         let model = archive.frame().model();
-        let axes = axes.filter(|name| Coordinate::all(model).any(|it| it.name() == *name));
         let outputs = model.outputs().map(|it| it.name());
         let outputs = outputs.filter(|name| archive.unit(name).is_some());
         let known = COLOURED_BY.into_iter().chain(axes).chain(outputs);
@@ -194,13 +197,14 @@ impl Figure {
     }
 
     /// Where axes are held, and those that are held at several values.
-    fn held(&self, kind: DrawingKind, dataset: &Dataset) -> Result<Held, Failure> {
+    fn held(&self, kind: DrawingKind, archive: &Archive) -> Result<Held, Failure> {
         let mut faults = Vec::new();
-        let held = self.values_at(dataset, &mut faults);
+        let axes = holdable(archive);
+        let held = self.values_at(&axes, &mut faults);
         // Panels lie along the axes in the order of the study.
-        let panels = dataset.coordinates.iter().filter_map(|(name, _)| {
-            let values = held.get(name).filter(|values| values.len() > 1)?;
-            Some((name.clone(), values.clone()))
+        let panels = axes.iter().filter_map(|it| {
+            let values = held.get(&it.name).filter(|values| values.len() > 1)?;
+            Some((it.name.clone(), values.clone()))
         });
         let panels: Vec<(String, Vec<f64>)> = panels.collect();
         if !kind.keys().panels {
@@ -221,10 +225,7 @@ impl Figure {
     }
 
     /// The values that axes of the results are given, by their names; faults are noted.
-    fn values_at(&self, dataset: &Dataset, faults: &mut Vec<String>) -> BTreeMap<String, Vec<f64>> {
-        let axes: Vec<Coordinate> = Coordinate::all(dataset.model())
-            .filter(|axis| dataset.coordinate(axis.name()).is_some())
-            .collect();
+    fn values_at(&self, axes: &[Holdable], faults: &mut Vec<String>) -> BTreeMap<String, Vec<f64>> {
         let mut held: BTreeMap<String, Vec<f64>> = BTreeMap::new();
         for text in &self.at {
             let Some((name, value)) = text.split_once('=') else {
@@ -232,13 +233,13 @@ impl Figure {
                 continue;
             };
             let name = name.trim();
-            let Some(axis) = axes.iter().find(|axis| axis.name() == name) else {
-                let names = axes.iter().map(|axis| axis.name());
+            let Some(axis) = axes.iter().find(|axis| axis.name == name) else {
+                let names = axes.iter().map(|axis| axis.name.as_str());
                 faults.push(format!("--at: {}", unknown("axis of these results", name, names)));
                 continue;
             };
             for value in value.split(',') {
-                match plain_or_quantity(value, axis.dimension()) {
+                match plain_or_quantity(value, axis.dimension) {
                     Err(message) => faults.push(format!("--at {name}: {message}")),
                     Ok(value) => held.entry(name.to_owned()).or_default().push(value),
                 }
@@ -246,6 +247,30 @@ impl Figure {
         }
         held
     }
+}
+
+/// What a figure can be held at.
+struct Holdable {
+    name: String,
+    dimension: Dimension,
+}
+
+/// What figures of a file can be held at: its axes, the places of its paths, and what varies along these; in the order of its dimensions.
+fn holdable(archive: &Archive) -> Vec<Holdable> {
+    let (frame, paths) = (archive.frame(), paths_of(archive));
+    let all: Vec<Coordinate> = Coordinate::all(frame.model()).collect();
+    let mut found = Vec::new();
+    for (name, _) in &frame.coordinates {
+        let along = paths.iter().find(|path| path.name == *name);
+        if along.is_some() {
+            found.push(Holdable { name: name.clone(), dimension: Dimension::Number });
+        }
+        let quantities = along.map_or(std::slice::from_ref(name), |path| &path.quantities);
+        let own = all.iter().filter(|it| quantities.iter().any(|name| name == it.name()));
+        let own = own.map(|it| Holdable { name: it.name().to_owned(), dimension: it.dimension() });
+        found.extend(own);
+    }
+    found
 }
 
 /// The measured points in a file, of the axes and the variables of the results.

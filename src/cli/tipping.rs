@@ -11,11 +11,10 @@ use super::failure::Failure;
 use super::readable::counted;
 use super::terminal::print;
 use crate::attractor::Share;
-use crate::campaign::BasinsAlong;
+use crate::campaign::{BasinsAlong, Stepping};
 use crate::run::{Steps, Tipping, TippingRow};
 use crate::store;
 use crate::store::catalogue::{ATTRACTOR, PERIOD};
-use crate::study::Coordinate;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -69,7 +68,7 @@ impl TippingOptions {
             faults
                 .push(format!("--ball: {found} is not allowed; expected a number, zero or above"));
         }
-        let dimension = basins.along().dimension();
+        let dimension = basins.along().dimension;
         let [from, to] = [("--from", &self.from), ("--to", &self.to)]
             .map(|(option, text)| read_quantity(option, text.as_deref()?, dimension, &mut faults));
         let steps = basins.steps(from.zip(to).map(|(from, to)| [from, to]));
@@ -90,7 +89,7 @@ impl TippingOptions {
         }
     }
 
-    fn described(&self, along: Coordinate, found: &[Tipping]) -> Value {
+    fn described(&self, Stepping { name, dimension }: Stepping<'_>, found: &[Tipping]) -> Value {
         let steps = found.iter().map(|step| {
             json!({
                 "from": step.values[0],
@@ -99,8 +98,8 @@ impl TippingOptions {
             })
         });
         json!({
-            "along": along.name(),
-            "unit": along.dimension().unit(),
+            "along": name,
+            "unit": dimension.unit(),
             "draws": self.draws,
             "seed": self.seed,
             "ball": self.ball,
@@ -109,8 +108,8 @@ impl TippingOptions {
     }
 
     /// A table for each step at which a motion or a start of its basin goes elsewhere.
-    fn told(&self, along: Coordinate, found: &[Tipping]) -> String {
-        let (name, unit) = (along.name(), along.dimension().unit());
+    fn told(&self, Stepping { name, dimension }: Stepping<'_>, found: &[Tipping]) -> String {
+        let unit = dimension.unit();
         let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
         let mut text = format!(
             "where motions go when {name} steps: the probability, and Wilson's interval at 95 percent\n\

@@ -7,7 +7,9 @@ use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
 use super::view::View;
 use crate::description::{Description, Section};
-use crate::store::catalogue::{EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, Place, section};
+use crate::store::catalogue::{
+    EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, EVENT_PLACE, Place, section,
+};
 
 /// Symbols of one kind beyond this number would hide the diagram, and the kind is left out.
 const MOST: usize = 40;
@@ -15,7 +17,7 @@ const MOST: usize = 40;
 /// What is read of the events.
 pub fn reads(model: &'static Description) -> Names {
     let sections = section(model).into_iter().map(|entry| Place::Event.of(entry));
-    Names::of([EVENT_KIND, EVENT_ATTRACTOR, EVENT_PERIOD])
+    Names::of([EVENT_KIND, EVENT_ATTRACTOR, EVENT_PERIOD, EVENT_PLACE])
         .and(sections)
         .and(Place::Event.parameters(model))
 }
@@ -117,8 +119,7 @@ fn events(view: &View<'_>, x: &str) -> Result<Vec<Event>, FigureError> {
         return Ok(Vec::new());
     }
     let (kinds, attractors) = (column(view, EVENT_KIND.name)?, column(view, EVENT_ATTRACTOR.name)?);
-    let (places, periods) =
-        (column(view, &Place::Event.name(x))?, column(view, EVENT_PERIOD.name)?);
+    let (places, periods) = (column(view, &place_name(view, x))?, column(view, EVENT_PERIOD.name)?);
     let coordinates = section(view.model()).into_iter();
     let coordinates: Vec<Vec<f64>> = coordinates
         .map(|entry| column(view, &Place::Event.name(entry.name)))
@@ -138,6 +139,14 @@ fn events(view: &View<'_>, x: &str) -> Result<Vec<Event>, FigureError> {
     Ok(events.collect())
 }
 
+/// The variable of where the events are along an axis.
+fn place_name(view: &View<'_>, x: &str) -> String {
+    match view.is_by_places(x) {
+        true => EVENT_PLACE.name.to_owned(),
+        false => Place::Event.name(x),
+    }
+}
+
 /// A variable of the events, in SI.
 fn column(view: &View<'_>, name: &str) -> Result<Vec<f64>, FigureError> {
     Ok(view.take(name, &[])?.into_iter().collect())
@@ -146,7 +155,8 @@ fn column(view: &View<'_>, name: &str) -> Result<Vec<f64>, FigureError> {
 /// Whether each event lies where the figure holds the axes other than `x`.
 fn on_line(view: &View<'_>, x: &str, count: usize) -> Result<Vec<bool>, FigureError> {
     let mut on_line = vec![true; count];
-    for name in view.axes().into_iter().filter(|name| *name != x) {
+    let others = view.axes().into_iter().filter(|name| *name != x);
+    for name in others.flat_map(|name| std::iter::once(name).chain(view.beside(name))) {
         let column = Place::Event.name(name);
         if view.dataset.variable(&column).is_none() {
             continue;

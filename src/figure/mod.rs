@@ -1,5 +1,6 @@
 //! Shown: draws stored records.
 
+mod along_path;
 mod attractor_diagram;
 mod attractors;
 mod axis;
@@ -95,7 +96,8 @@ pub use trade_off_outputs::gain_of;
 use crate::description::Description;
 use crate::store::catalogue::Entry;
 use crate::study::appearance::NATURAL;
-use crate::study::{Drawing, DrawingKind, Size, Sweep};
+use crate::study::{Coordinate, Drawing, DrawingKind, Size, Sweep};
+use along_path::ByQuantities;
 use canvas::Drawn;
 use origin::Origin;
 use output::Figure;
@@ -114,8 +116,9 @@ pub fn variables(drawing: &Drawing, model: &'static Description) -> BTreeSet<Str
         return BTreeSet::new();
     }
     let reads = registry::kind(drawing.kind).reads;
-    // Every figure looks for the parameters along which orbits were continued.
+    // Every figure looks for the parameters along which orbits were continued, and for what varies along paths.
     let names = reads(drawing, model).and(varied::READS);
+    let names = names.and(Coordinate::all(model).map(Entry::of_coordinate));
     let of_natural = model.natural().into_iter().flatten().map(Entry::of_parameter);
     let is_natural = drawing.settings.values().any(|it| it.unit == Some(NATURAL));
     names.and(of_natural.filter(|_| is_natural)).into_set()
@@ -158,6 +161,11 @@ pub fn picture<'a>(
 
 /// The drawing, and what it leaves out or takes for something else.
 fn drawn(shown: Shown<'_>, drawing: &Drawing) -> Result<(Drawn, Vec<String>), FigureError> {
+    let own = ByQuantities::of(shown, drawing)?;
+    let (shown, drawing) = match &own {
+        Some(own) => (own.shown(shown), own.drawing()),
+        None => (shown, drawing),
+    };
     let view = View::new(shown, drawing)?;
     if !drawing.kind.suits(drawing.of.len(), view.model()) {
         return Err(view.unfit(drawing.kind.needs_outputs(view.model())));

@@ -47,15 +47,23 @@ impl View<'_> {
     /// Where the axes other than `free` are held, as "name = value unit" in the units of the figure.
     pub fn held_record(&self, free: &[&str]) -> String {
         let ours = self.axes().into_iter().filter(|name| !free.contains(name));
-        let notes: Vec<String> = ours.map(|name| self.held_values(name)).collect();
+        let mut notes = Vec::new();
+        for axis in ours {
+            notes.push(self.held_values(axis, axis));
+            notes.extend(self.beside(axis).into_iter().map(|name| self.held_values(axis, name)));
+        }
         notes.join(", ")
     }
 
-    /// Where an axis is held, as "name = value unit", with several values where panels differ in it.
-    fn held_values(&self, name: &str) -> String {
-        let (values, quantity) = (self.coordinate_values(name), self.quantity(name));
-        let several = self.held.panelled.iter().find(|it| it.0 == name).map(|it| it.1.clone());
-        let held = several.unwrap_or_else(|| vec![self.held.place(name)]);
+    /// Where an axis is held, as "name = value unit" of it or of what varies beside it, with several values where panels differ in it.
+    fn held_values(&self, axis: &str, name: &str) -> String {
+        let values = match name == axis {
+            true => self.coordinate_values(axis),
+            false => self.values_beside(name),
+        };
+        let quantity = self.quantity(name);
+        let several = self.held.panelled.iter().find(|it| it.0 == axis).map(|it| it.1.clone());
+        let held = several.unwrap_or_else(|| vec![self.held.place(axis)]);
         let flags = self.dataset.coordinate(name).map_or(&[][..], |it| &it.flags);
         let held = held.into_iter().map(|index| {
             let value = values.get(index).copied().unwrap_or(f64::NAN);
@@ -112,8 +120,19 @@ impl View<'_> {
         match flags.iter().find(|(code, _)| *code as f64 == value) {
             Some((_, name)) if axis == DIRECTION.name => self.direction_text(name),
             Some((_, name)) => Text::plain(name),
-            None => self.quantity(axis).note(value),
+            None => self.notes_along(axis, index, value),
         }
+    }
+
+    /// The values of an axis and of what varies beside it along a path, each as "symbol = value unit".
+    fn notes_along(&self, axis: &str, index: usize, value: f64) -> Text {
+        let own = (!self.is_by_places(axis)).then(|| self.quantity(axis).note(value));
+        let beside = self.beside(axis).into_iter().map(|name| {
+            let value = self.values_beside(name).get(index).copied().unwrap_or(f64::NAN);
+            self.quantity(name).note(value)
+        });
+        let all = own.into_iter().chain(beside);
+        all.reduce(|note, next| note.then(Text::plain(", ")).then(next)).unwrap_or_default()
     }
 }
 

@@ -10,6 +10,7 @@ use super::unit::{ShownUnit, raised};
 use crate::store::catalogue::{self, Place, Shown};
 use crate::store::dataset::{Dataset, Values};
 use crate::study::ScaleChoice;
+use crate::study::axis::range;
 use crate::tradeoff::NOISE;
 
 /// Ratio of positive values above which their logarithm is shown.
@@ -46,6 +47,8 @@ pub struct Quantity {
     /// Whether its logarithm is shown where it spans many decades: it is a ratio, and no speed, length or energy, whose
     /// differences matter.
     is_ratio: bool,
+    /// Of an axis that is a path: what varies beside it, with markup; else empty.
+    beside: String,
     /// What the request sets of it.
     pub chosen: Rc<Chosen>,
 }
@@ -74,6 +77,7 @@ impl Quantity {
                 whole,
                 noise: least * factor,
                 is_ratio,
+                beside: String::new(),
                 chosen: Rc::default(),
             },
             None => {
@@ -97,6 +101,7 @@ impl Quantity {
             whole: false,
             noise: 0.0,
             is_ratio: false,
+            beside: String::new(),
             chosen: Rc::default(),
         }
     }
@@ -114,6 +119,7 @@ impl Quantity {
             whole: false,
             noise: 0.0,
             is_ratio: false,
+            beside: String::new(),
             chosen: Rc::default(),
         }
     }
@@ -228,10 +234,34 @@ impl Quantity {
             (_, unit) => format!("({} {unit})", power_of_ten(exponent)),
         };
         let parts = [symbol, unit].map(|part| Text::markup(&part.replace(' ', "\u{a0}")));
-        parts.into_iter().fold(self.name.clone(), |label, part| {
+        let label = parts.into_iter().fold(self.name.clone(), |label, part| {
             let joint = if label.is_empty() || part.is_empty() { "" } else { " " };
             label.then(Text::plain(joint)).then(part)
-        })
+        });
+        let joint = if self.beside.is_empty() { "" } else { "; " };
+        label.then(Text::plain(joint)).then(Text::markup(&self.beside))
+    }
+
+    /// The quantity of an axis with what varies beside it, with markup.
+    pub fn going_with(self, beside: String) -> Quantity {
+        Quantity { beside, ..self }
+    }
+
+    /// How it goes along a path with these values (SI), with markup: from the first to the last, or between the least and the
+    /// greatest where it turns back; nothing without values.
+    pub fn course(&self, values: &[f64]) -> Option<String> {
+        let (first, last) = (*values.first()?, *values.last()?);
+        let [least, greatest] = range(values);
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let [first, last, least, greatest] =
+            [first, last, least, greatest].map(|value| short(value * self.factor));
+        let sign = self.sign();
+        let told = match () {
+            () if least == greatest => format!("{sign} = {first}{unit}"),
+            () if is_monotone_or_stands(values) => format!("{sign} from {first} to {last}{unit}"),
+            () => format!("{sign} between {least} and {greatest}{unit}"),
+        };
+        Some(told.replace(' ', "\u{a0}"))
     }
 
     /// Its name and unit in plain letters.
@@ -270,6 +300,12 @@ impl Quantity {
         let equals = format!(" = {}{unit}", short(value * self.factor)).replace(' ', "\u{a0}");
         self.short_name().then(Text::markup(&equals))
     }
+}
+
+/// Whether values never fall, or never rise.
+fn is_monotone_or_stands(values: &[f64]) -> bool {
+    let pairs = || values.windows(2);
+    pairs().all(|pair| pair[0] <= pair[1]) || pairs().all(|pair| pair[0] >= pair[1])
 }
 
 #[cfg(test)]

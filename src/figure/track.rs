@@ -59,14 +59,33 @@ fn is_branch(kinds: &Rows, request: usize) -> bool {
 pub fn where_held(view: &View<'_>, dimension: Entry, place: Place, drawn: &[&str]) -> Vec<bool> {
     let count = view.coordinate_values(dimension.name).len();
     let mut fits = vec![true; count];
-    for axis in view.axes().into_iter().filter(|axis| !drawn.contains(axis)) {
-        let variable = view.dataset.variable(&place.name(axis));
-        let (Some(variable), Some(held)) = (variable, view.held_value(axis)) else { continue };
-        for (fits, value) in fits.iter_mut().zip(variable.values.to_real()) {
-            *fits &= (value - held).abs() <= SAME * held.abs().max(value.abs());
+    for axis in view.axes() {
+        let mut held = Vec::new();
+        if !drawn.contains(&axis) {
+            held.extend(view.held_value(axis).map(|value| (axis, vec![value])));
+        }
+        for quantity in view.beside(axis) {
+            let values = view.values_beside(quantity);
+            // Along a path that is drawn it would have to be the same everywhere.
+            let own = match drawn.contains(&axis) {
+                true => values,
+                false => values.get(view.held.place(axis)).copied().into_iter().collect(),
+            };
+            held.push((quantity, own));
+        }
+        for (name, values) in held {
+            let Some(variable) = view.dataset.variable(&place.name(name)) else { continue };
+            for (fits, value) in fits.iter_mut().zip(variable.values.to_real()) {
+                *fits &= values.iter().all(|held| is_same(value, *held));
+            }
         }
     }
     fits
+}
+
+/// Whether two values of a parameter are the same, but for rounding.
+fn is_same(value: f64, held: f64) -> bool {
+    (value - held).abs() <= SAME * held.abs().max(value.abs())
 }
 
 /// How many branches are not shown as they lie where the axes that are not `drawn` have other values than `view` holds;

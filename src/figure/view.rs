@@ -170,10 +170,11 @@ impl<'a> View<'a> {
     /// How figures show the quantity called `name`.
     pub fn quantity(&self, name: &str) -> Quantity {
         let quantity = Quantity::named(name, self.dataset);
-        match self.chosen.get(name) {
+        let quantity = match self.chosen.get(name) {
             Some(chosen) => quantity.with(chosen.clone()),
             None => quantity,
-        }
+        };
+        quantity.going_with(self.told_beside(name))
     }
 
     /// Whether a mark is shown.

@@ -2,25 +2,24 @@
 
 use std::cmp::Reverse;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use super::cases::{Rayon, RunError, pool};
 use super::infer::infer;
+use super::together::together;
 use super::{FinalMotions, Machine};
 use crate::attractor::{Attractor, Bridge, Label, Links, Table};
 use crate::branch::{ONE_VALUE, SpecialKind, SpecialValue};
-use crate::description::Section;
+use crate::description::{Parameter, Section};
 use crate::lane::Instructions;
 use crate::model::{Along, Cell, LinearOrbits, Motions, Neighbours, Setting, Unlinked};
+use crate::orbit::Varied;
 use crate::study::layout::{Layout, linked_axis};
-use crate::study::{CaseSet, Coordinate, Direction, Study};
+use crate::study::{Axis, CaseSet, Coordinate, Direction, Study, Varying};
 
 /// Lines are searched together that have so many cells: links that take long fill the lanes.
 const LINKS: usize = 32768;
-/// A thread more is worth so many computations, as fewer leave its lanes empty.
-const LEAST: usize = 64;
 
 /// A change of an attractor along the axis, or its beginning or end.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +30,7 @@ pub struct AttractorEvent {
     pub attractor: u32,
     /// A case of the attractor beside the event, which tells the values of the other axes.
     pub case: usize,
-    /// The value of the parameter of the axis.
+    /// The value of the parameter of the axis; along a path of several the place, which is whole at its places.
     pub value: f64,
     /// How far the true value may be.
     pub uncertainty: f64,
@@ -81,12 +80,11 @@ impl Attractors {
 /// Whether there are attractors to be told apart or followed: an axis is followed, or the only parameter that
 /// varies, or cases differ in their start; of draws, in their start alone.
 pub fn has_attractors(study: &Study) -> bool {
-    let varied = study.case_set.varied();
     match study.case_set {
         CaseSet::Grid(_) => {
-            linked_axis(study).is_some() || varied.iter().any(|coordinate| coordinate.is_start())
+            linked_axis(study).is_some() || study.axes().iter().any(Axis::is_of_starts)
         }
-        CaseSet::Draws(_) => varied.iter().all(|coordinate| coordinate.is_start()),
+        CaseSet::Draws(_) => study.case_set.varied().iter().all(|it| it.is_start()),
     }
 }
 
@@ -145,7 +143,7 @@ fn links_of_lines(
 ) -> Vec<Vec<Links<Section>>> {
     let last = lines[0].cells.len().saturating_sub(1);
     // Of one cell there are no links, and along another axis than a parameter none leads on.
-    if last == 0 || lines[0].along(0).is_none() {
+    if last == 0 || lines[0].varied(0).is_none() {
         (0..lines.len() * last).for_each(|_| linked());
         return vec![vec![Links::default(); last]; lines.len()];
     }
@@ -174,17 +172,28 @@ fn unlinked(lines: &[Line<'_>], linear: &[LinearOrbits], link: usize) -> Option<
     let last = lines[0].cells.len() - 1;
     let (line, at) = (link / last, link % last);
     let neighbours = lines[line].neighbours(at)?;
-    let linear = [at, at + 1].map(|at| linear[line * (last + 1) + at].clone());
-    Some(Unlinked { neighbours, linear })
+    let both = match lines[line].has_one_direction() {
+        true => [at, at + 1].map(|at| line * (last + 1) + at),
+        false => [0, 1].map(|side| 2 * link + side),
+    };
+    Some(Unlinked { neighbours, linear: both.map(|place| linear[place].clone()) })
 }
 
-/// The attractors of all cells of some lines along a parameter, line by line, with their derivatives.
+/// The attractors of all cells of some lines along a parameter, line by line, with their derivatives; along a path of several
+/// parameters, which may have another direction before a cell than behind it, those of the two cells of each link.
 fn linear_orbits(lines: &[Line<'_>], instructions: Instructions) -> Vec<LinearOrbits> {
-    let (model, length) = (lines[0].study.model(), lines[0].cells.len());
+    let (model, cells) = (lines[0].study.model(), lines[0].cells.len());
+    let is_one = lines[0].has_one_direction();
+    let length = if is_one { cells } else { 2 * (cells - 1) };
     together((0..lines.len() * length).collect(), &|next| {
         model.linear_orbits(instructions, &mut || {
             let place = next()?;
-            Some((place, lines[place / length].cell(place % length)?))
+            let (line, at) = (&lines[place / length], place % length);
+            let cell = match is_one {
+                true => line.cell(at, at.min(cells - 2)),
+                false => line.cell(at / 2 + at % 2, at / 2),
+            };
+            Some((place, cell?))
         })
     })
 }
@@ -226,27 +235,47 @@ impl<'a> Line<'a> {
         study.model().table(&setting, motions, &study.protocol, &Rayon)
     }
 
-    /// What is held at a place of the axis, and the value there; none where the axis is no parameter.
-    fn along(&self, at: usize) -> Option<(Along, f64)> {
-        let Line { study, layout, number, .. } = *self;
-        let axis = &study.axes()[layout.axis?];
-        let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
-        let setting = Setting::of(&study.case(layout.case(number, at, 0)));
-        let tolerance = study.protocol.tolerance;
-        Some((Along { setting, parameter, tolerance }, axis.values[at]))
+    /// Whether one thing alone varies along the axis, so that orbits move in one direction there.
+    fn has_one_direction(&self) -> bool {
+        self.layout.axis.is_some_and(|axis| self.study.axes()[axis].single().is_some())
     }
 
-    /// The cell at a place of the axis; none where the axis is no parameter.
-    fn cell(&self, at: usize) -> Option<Cell> {
-        let (along, value) = self.along(at)?;
+    /// What varies from a place of the axis to the next, with its numbers at both; none where the axis is not of parameters.
+    ///
+    /// The number of a parameter is its value. Several along a path change in step, by the place between the two.
+    fn varied(&self, at: usize) -> Option<(Varied<Parameter>, [f64; 2])> {
+        let axis = &self.study.axes()[self.layout.axis?];
+        let mut parameters = Vec::with_capacity(axis.varying.len());
+        for Varying { coordinate, values } in &axis.varying {
+            let Coordinate::Parameter(parameter) = *coordinate else { return None };
+            parameters.push((parameter, [values[at], values[at + 1]]));
+        }
+        if let [(parameter, values)] = parameters[..] {
+            return Some((Varied::One(parameter), values));
+        }
+        let places = [at as f64, (at + 1) as f64];
+        Some((Varied::in_step(places, parameters.into_iter()), places))
+    }
+
+    /// What is held at a place of the axis where something varies.
+    fn along(&self, at: usize, varied: Varied<Parameter>) -> Along {
+        let Line { study, layout, number, .. } = *self;
+        let setting = Setting::of(&study.case(layout.case(number, at, 0)));
+        Along { setting, varied, tolerance: study.protocol.tolerance }
+    }
+
+    /// The cell at a place of the axis, which is one of the two of a link; none where the axis is not of parameters.
+    fn cell(&self, at: usize, link: usize) -> Option<Cell> {
+        let (varied, numbers) = self.varied(link)?;
+        let (along, value) = (self.along(at, varied), numbers[at - link]);
         Some(Cell { along, value, table: self.cells[at].clone() })
     }
 
-    /// The cells at a place of the axis and at the next; none where the axis is no parameter.
+    /// The cells at a place of the axis and at the next; none where the axis is not of parameters.
     fn neighbours(&self, at: usize) -> Option<Neighbours> {
-        let Line { study, layout, .. } = *self;
-        let (along, value) = self.along(at)?;
-        let values = [value, study.axes()[layout.axis?].values[at + 1]];
+        let study = self.study;
+        let (varied, values) = self.varied(at)?;
+        let along = self.along(at, varied);
         let cells = [at, at + 1].map(|cell| self.cells[cell].clone());
         let directions = study.inherit().map_or(&[][..], |inherit| &inherit.directions);
         let inherited = [Direction::Upward, Direction::Downward].map(|direction| {
@@ -278,24 +307,6 @@ impl<'a> Line<'a> {
             }
         }
     }
-}
-
-/// What a thread computes of the places that it is given one after another, each with its place.
-type OfThread<'a, T> = dyn Fn(&mut dyn FnMut() -> Option<usize>) -> Vec<(usize, T)> + Sync + 'a;
-
-/// Computations on all threads, begun in the order of these places, each by the thread that has room for it. Their results by
-/// rising places.
-fn together<T: Send>(places: Vec<usize>, of_thread: &OfThread<'_, T>) -> Vec<T> {
-    let taken = AtomicUsize::new(0);
-    let threads = rayon::current_num_threads().min(places.len().div_ceil(LEAST));
-    let mut results: Vec<(usize, T)> = (0..threads)
-        .into_par_iter()
-        .flat_map_iter(|_| {
-            of_thread(&mut || places.get(taken.fetch_add(1, Ordering::Relaxed)).copied())
-        })
-        .collect();
-    results.sort_by_key(|(place, _)| *place);
-    results.into_iter().map(|(_, result)| result).collect()
 }
 
 /// The attractors of two cells between which the cases lead that have this one of the `directions` of a cell in

@@ -1,6 +1,6 @@
 //! A try to locate the boundary between two neighbouring cases of a map: the orbit of each is continued to the other.
 
-use super::map_plane::Neighbours;
+use super::map_plane::{Neighbours, values_along};
 use crate::branch::is_followed;
 use crate::description::{Parameter, Section, State};
 use crate::motion::branch::{Branch, Found, Point};
@@ -100,7 +100,7 @@ impl Try<'_> {
         let [own, other] = [values[side], values[1 - side]];
         let before = own - BEFORE * (other - own);
         let case = self.study.case(self.pair.cases[side]);
-        let ends = |axis: usize| range(&grid.axes[axis].values);
+        let ends = |axis: usize| range(values_along(grid, axis));
         let continuation = Continuation {
             name: String::new(),
             along,

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::study::{Axis, Grid};
+use crate::study::Grid;
+use crate::study::axis::range;
 
 /// A line this near to a point, relative to the ranges of the map, passes it: that much a polygon may deviate from a smooth curve
 /// with steps of a hundredth.
@@ -37,14 +38,14 @@ impl MapPlane {
     /// # Panics
     /// Where the grid has fewer axes.
     pub fn of(grid: &Grid) -> MapPlane {
-        let ends = |axis: &Axis| crate::study::axis::range(&axis.values);
-        let scales = [0, 1].map(|axis| {
-            let [low, high] = ends(&grid.axes[axis]);
+        let values = [0, 1].map(|axis| values_along(grid, axis));
+        let scales = values.map(|values| {
+            let [low, high] = range(values);
             [low, high - low]
         });
         let relative = |axis: usize| {
             let [low, width] = scales[axis];
-            grid.axes[axis].values.iter().map(|value| (value - low) / width).collect()
+            values[axis].iter().map(|value| (value - low) / width).collect()
         };
         let directions = grid.direction_axis().map_or(1, <[_]>::len);
         MapPlane { values: [relative(0), relative(1)], scales, directions }
@@ -120,6 +121,11 @@ impl MapPlane {
             (low - NEAR..=high + NEAR).contains(&at).then_some(place)
         })
     }
+}
+
+/// The values of what varies along an axis of a map; none of a path, along which several things vary.
+pub fn values_along(grid: &Grid, axis: usize) -> &[f64] {
+    grid.axes[axis].single().map_or(&[], |it| &it.values)
 }
 
 /// Whether a line passes a point.

@@ -22,6 +22,7 @@ mod settling;
 mod shock;
 pub mod shares_along;
 mod tipping;
+mod together;
 
 pub use crate::orbit::Machine;
 pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors, links};

@@ -2,7 +2,7 @@
 
 use crate::attractor::{Integrity, Label, integrity};
 use crate::model::Setting;
-use crate::study::{Axis, CaseSet, Coordinate, Study};
+use crate::study::{Axis, CaseSet, Coordinate, Study, Varying};
 
 /// The grid of the starts of a study, as distances are measured in it: omega r, y1 and y2 [m/s].
 pub(super) struct Room {
@@ -16,15 +16,16 @@ impl Room {
         let CaseSet::Grid(_) = study.case_set else { return None };
         let scales = study.model().scales(&Setting::of(&study.case(case)));
         let names: Vec<Coordinate> = Coordinate::of_section(study.base.model()).collect();
-        let starts: Vec<&Axis> =
-            study.axes().iter().filter(|axis| axis.coordinate.is_start()).collect();
+        let starts: Vec<&Axis> = study.axes().iter().filter(|axis| axis.is_of_starts()).collect();
         if starts.is_empty() {
             return None;
         }
         let mut axes = Vec::with_capacity(starts.len());
         for axis in &starts {
-            let i = names.iter().position(|name| *name == axis.coordinate)?;
-            axes.push(axis.values.iter().map(|value| scales[i] * value).collect());
+            // Along a path of several the distance is none along an axis.
+            let Varying { coordinate, values } = axis.single()?;
+            let i = names.iter().position(|name| name == coordinate)?;
+            axes.push(values.iter().map(|value| scales[i] * value).collect());
         }
         Some(Room { axes })
     }

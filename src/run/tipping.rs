@@ -93,7 +93,8 @@ pub fn tipping(
     let Some(axis) = layout.axis.filter(|_| layout.lines() == 1 && layout.cases() > 1) else {
         return Ok(None);
     };
-    let values = &study.axes()[axis].values;
+    // Along a path of several the places stand for values.
+    let single = study.axes()[axis].single();
     let attractors = labels.iter().filter_map(|it| match it {
         Label::Attractor(number) => Some(*number as usize + 1),
         _ => None,
@@ -102,7 +103,8 @@ pub fn tipping(
     let found = on_all_threads(machine.threads, steps.len(), |place| {
         let [from, to] = steps[place].map(|at| Cell { study, layout: &layout, labels, at });
         let stepping = Stepping { from, to, drawn, attractors };
-        Tipping { values: steps[place].map(|at| values[at]), rows: stepping.rows() }
+        let value = |at: usize| single.map_or(at as f64, |it| it.values[at]);
+        Tipping { values: steps[place].map(value), rows: stepping.rows() }
     })?;
     Ok(Some(found))
 }

@@ -11,7 +11,7 @@ use super::catalogue::{
     ATTRACTOR_SHARE_ERROR, ATTRACTOR_SHARE_HIGH, ATTRACTOR_SHARE_LOW, BASIN_ENTROPY,
     BASIN_ENTROPY_BOX, BASIN_ENTROPY_ERROR, BOUNDARY_BASIN_ENTROPY, BOUNDARY_BASIN_ENTROPY_ERROR,
     EDGE_CYCLE, EDGE_HIGH, EDGE_INDEX, EDGE_LOW, EDGE_MULTIPLIER_IMAG, EDGE_MULTIPLIER_REAL,
-    EDGE_PERIOD, EDGE_RESIDUAL, EVENT, EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD,
+    EDGE_PERIOD, EDGE_RESIDUAL, EVENT, EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, EVENT_PLACE,
     EVENT_UNCERTAINTY, Entry, INFERRED_ELSEWHERE, INFERRED_SAMPLE, Place, SETTLED_CYCLES,
     SETTLED_NEVER, SETTLED_SHARE, SETTLED_STEP, edges as edge_entries, section,
 };
@@ -25,7 +25,7 @@ use crate::run::{
     AttractorRow, AttractorTable, Attractors, Edge, InferredSample, Settling, SettlingTimes,
     SharesAt,
 };
-use crate::study::{Coordinate, Study};
+use crate::study::{Axis, Coordinate, Study};
 
 /// Adds to the dataset of a study which attractor each case has ended on, the table of the attractors of starts, and
 /// that of events.
@@ -42,7 +42,7 @@ pub fn add_attractors(
     let numbers = attractors.of_case.iter().map(|it| it.map_or(-1, i64::from)).collect();
     let array = ArrayD::from_shape_vec(IxDyn(&study.shape()), numbers).expect("one per case");
     if let Some(axis) = attractors.axis {
-        let name = study.axes()[axis].coordinate.name().to_owned();
+        let name = study.axes()[axis].name().to_owned();
         dataset.attributes.insert(ATTRACTOR_AXIS.to_owned(), name);
     }
     dataset.put(ATTRACTOR, &dimensions, Values::Integer(array));
@@ -54,7 +54,7 @@ pub fn add_attractors(
         add_edges(dataset, &table.edges);
     }
     if let (Some(along), Some(axis)) = (&table.along, attractors.axis) {
-        add_shares(dataset, study.axes()[axis].coordinate.name(), along);
+        add_shares(dataset, study.axes()[axis].name(), along);
     }
     if !attractors.events.is_empty() {
         add_events(dataset, study, attractors);
@@ -262,20 +262,26 @@ fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
     columns.integers(EVENT_KIND, |event| event.kind as i64);
     columns.integers(EVENT_ATTRACTOR, |event| i64::from(event.attractor));
     columns.integers(EVENT_PERIOD, |event| event.period as i64);
-    for (place, axis) in study.axes().iter().enumerate() {
-        let Coordinate::Parameter(parameter) = axis.coordinate else { continue };
+    let along = attractors.axis.map(|axis| &study.axes()[axis]);
+    for coordinate in study.case_set.varied() {
+        let Coordinate::Parameter(parameter) = coordinate else { continue };
         let entry = Place::Event.of(Entry::of_parameter(parameter));
-        columns.reals(entry, |event| match attractors.axis == Some(place) {
-            true => event.value,
-            false => study.case(event.case).parameters[parameter],
+        let own = along.filter(|axis| axis.values_of(coordinate).is_some());
+        columns.reals(entry, |event| match own {
+            Some(axis) if axis.single().is_some() => event.value,
+            Some(path) => path.value_between(coordinate, event.value).unwrap_or(f64::NAN),
+            None => study.case(event.case).parameters[parameter],
         });
+    }
+    let single = along.and_then(Axis::single);
+    if along.is_some() && single.is_none() {
+        columns.reals(EVENT_PLACE, |event| event.value);
     }
     for (i, entry) in sections.into_iter().enumerate() {
         columns.reals(Place::Event.of(entry), |event| event.section[i]);
     }
     columns.reals(EVENT_UNCERTAINTY, |event| event.uncertainty);
-    let coordinate = attractors.axis.map(|axis| study.axes()[axis].coordinate);
-    let unit = coordinate.map_or("1", |coordinate| coordinate.dimension().unit());
+    let unit = single.map_or("1", |it| it.coordinate.dimension().unit());
     if let Some(uncertainty) = dataset.variables.get_mut(EVENT_UNCERTAINTY.name) {
         uncertainty.unit = unit.to_owned();
     }

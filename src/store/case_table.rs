@@ -3,6 +3,7 @@
 use super::catalogue::{Flags, OUTCOME};
 use super::{Archive, StoreError, Variable};
 use crate::description::Description;
+use crate::study::Coordinate;
 
 /// The cases of a file of results.
 #[derive(Debug)]
@@ -51,12 +52,28 @@ impl<'a> CaseTable<'a> {
     pub fn names(&self) -> Vec<String> {
         let axes = self.dimensions.iter().map(|(name, _)| name.clone());
         let variables = self.archive.variables();
-        let fitting = variables.filter(|(_, over)| over.is_empty() || self.is_over_cases(over));
+        let fitting = variables.filter(|(name, over)| {
+            over.is_empty() || self.is_over_cases(over) || self.is_along_path(name, over)
+        });
         axes.chain(fitting.map(|(name, _)| name.to_owned())).collect()
     }
 
     fn is_over_cases(&self, dimensions: &[String]) -> bool {
         dimensions.iter().eq(self.dimensions.iter().map(|(name, _)| name))
+    }
+
+    /// Whether a quantity varies along a path of the cases, over whose dimension alone it lies.
+    fn is_along_path(&self, name: &str, dimensions: &[String]) -> bool {
+        let is_own = |dimension: &String| self.dimensions.iter().any(|(own, _)| own == dimension);
+        let model = self.archive.frame().model();
+        matches!(dimensions, [one] if is_own(one))
+            && Coordinate::all(model).any(|it| it.name() == name)
+    }
+
+    /// The values along one of the dimensions, each repeated for its cases.
+    fn repeated(&self, along: usize, values: &[f64]) -> Vec<f64> {
+        let inner: usize = self.dimensions[along + 1..].iter().map(|(_, it)| it).product();
+        (0..self.cases()).map(|case| values[case / inner % values.len()]).collect()
     }
 
     /// The numbers called `name`, of an axis or a constant repeated for each case; none where there is not one for each.
@@ -65,14 +82,17 @@ impl<'a> CaseTable<'a> {
         if let Some(axis) = self.dimensions.iter().position(|(axis, _)| axis == name) {
             let Some(variable) = self.archive.frame().coordinate(name) else { return Ok(None) };
             let values: Vec<f64> = variable.values.to_real().into_iter().collect();
-            let inner: usize = self.dimensions[axis + 1..].iter().map(|(_, it)| it).product();
-            let of_cases = (0..self.cases()).map(|case| values[case / inner % values.len()]);
-            return Ok(Some(column(variable, of_cases.collect())));
+            return Ok(Some(column(variable, self.repeated(axis, &values))));
         }
         let Some(variable) = self.archive.variable(name)? else { return Ok(None) };
         let values: Vec<f64> = variable.values.to_real().into_iter().collect();
         if self.is_over_cases(&variable.dimensions) {
             return Ok(Some(column(&variable, values)));
+        }
+        if self.is_along_path(name, &variable.dimensions) {
+            let path = &variable.dimensions[0];
+            let axis = self.dimensions.iter().position(|(own, _)| own == path);
+            return Ok(axis.map(|axis| column(&variable, self.repeated(axis, &values))));
         }
         let is_constant = variable.dimensions.is_empty() && values.len() == 1;
         Ok(is_constant.then(|| column(&variable, vec![values[0]; self.cases()])))

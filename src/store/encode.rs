@@ -15,6 +15,7 @@ use super::attribute::{self, Attribute, TEXT_MEANING, attributes_of, constants, 
 use super::catalogue::DIRECTION;
 use super::element::Element;
 use super::names::*;
+use super::path::{self, auxiliary, paths};
 use super::{Dataset, StoreError, Values, Variable, scale};
 
 /// Chunks stay below HDF5's default cache, so that reading a slice unpacks each chunk once.
@@ -26,8 +27,14 @@ pub const COMPRESSION: u8 = 4;
 /// Memory is claimed in steps of this size while the file grows.
 const GROWTH_BYTES: usize = 1 << 20;
 
-/// The coordinates of a file that is being written, in their order.
-pub type Scales = Vec<(String, Array)>;
+/// The coordinates of a file that is being written.
+#[derive(Default)]
+pub struct Scales {
+    /// Those of its dimensions, in their order.
+    of_dimensions: Vec<(String, Array)>,
+    /// What varies along paths.
+    paths: Vec<path::Path>,
+}
 
 /// The bytes of the file that holds `dataset`; `path` only names it in messages.
 pub fn image(dataset: &Dataset, path: &Path) -> Result<Vec<u8>, StoreError> {
@@ -45,12 +52,12 @@ pub fn image(dataset: &Dataset, path: &Path) -> Result<Vec<u8>, StoreError> {
 
 /// Puts `dataset` into `file`; `path` only names it in messages.
 pub fn lay_out(file: &File, dataset: &Dataset, path: &Path) -> Result<Scales, StoreError> {
-    let mut scales = Scales::new();
+    let mut scales = Scales { of_dimensions: Vec::new(), paths: paths(dataset) };
     for (name, coordinate) in &dataset.coordinates {
-        let placed = put_coordinate(file, name, coordinate, scales.len());
+        let placed = put_coordinate(file, name, coordinate, scales.of_dimensions.len());
         let placed =
             placed.map_err(StoreError::encoding(path, format!("storing the coordinate {name}")))?;
-        scales.push((name.clone(), placed));
+        scales.of_dimensions.push((name.clone(), placed));
     }
     for (name, variable) in &dataset.variables {
         put_variable(file, name, variable, &scales)
@@ -118,12 +125,7 @@ fn put_names(file: &File, name: &str, category: &Variable) -> hdf5::Result<Array
     Ok(array)
 }
 
-fn put_variable(
-    file: &File,
-    name: &str,
-    variable: &Variable,
-    scales: &[(String, Array)],
-) -> hdf5::Result<()> {
+fn put_variable(file: &File, name: &str, variable: &Variable, scales: &Scales) -> hdf5::Result<()> {
     let array = put_labelled(file, name, variable)?;
     let element = Element::of(variable, variable.values.range());
     attach(&array, name, variable, element, scales)
@@ -135,20 +137,24 @@ pub fn attach(
     name: &str,
     variable: &Variable,
     element: Element,
-    scales: &[(String, Array)],
+    scales: &Scales,
 ) -> hdf5::Result<()> {
     if has_missing(name, element) {
         element.put_fill_value(array)?;
     }
     let mut positions = Vec::new();
     for (dimension, along) in variable.dimensions.iter().enumerate() {
-        let position = scales.iter().position(|(scale, _)| scale == along);
+        let position = scales.of_dimensions.iter().position(|(scale, _)| scale == along);
         let position = position.ok_or_else(|| format!("no coordinate is called {along}"))?;
-        scale::attach(array, &scales[position].1, dimension)?;
+        scale::attach(array, &scales.of_dimensions[position].1, dimension)?;
         positions.push(position as i32);
     }
     if !positions.is_empty() {
         array.new_attr_builder().with_data(&positions).create(DIMENSION_IDS)?;
+    }
+    let auxiliary = auxiliary(&scales.paths, name, &variable.dimensions);
+    if !auxiliary.is_empty() {
+        put_attribute(array, COORDINATES, &auxiliary)?;
     }
     Ok(())
 }

@@ -12,7 +12,8 @@ pub const FORMAT_WRITTEN: &str = "1";
 /// Root attribute: the model whose results they are, unless it is that of studies which name none.
 pub const MODEL: &str = "model";
 
-/// Root attribute: what else describes the whole file and is no variable over the cases, as CF has it.
+/// Root attribute: what else describes the whole file and is no variable over the cases, as CF has it. Attribute of a variable: what
+/// varies along the paths over which it lies.
 pub const COORDINATES: &str = "coordinates";
 /// Root attributes that begin so hold numbers where they can.
 pub const OF_PROTOCOL: &str = "protocol_";

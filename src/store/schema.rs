@@ -14,7 +14,7 @@ use crate::of::default_model;
 use crate::orbit::Exponents;
 use crate::orbit::matrix::Complex;
 use crate::run::Record;
-use crate::study::{CaseSet, Coordinate, Study};
+use crate::study::{Axis, CaseSet, Coordinate, Study, Varying};
 
 /// Attribute: what was taken where the study leaves it open, see [`Study::remarks`].
 pub const REMARKS: &str = "study_remarks";
@@ -101,7 +101,7 @@ pub fn frame(study: &Study) -> Dataset {
         dataset.attributes.insert(REMARKS.to_owned(), study.remarks.join("; "));
     }
     if let Some(inherit) = study.inherit() {
-        let axis = study.axes()[inherit.axis].coordinate.name();
+        let axis = study.axes()[inherit.axis].name();
         dataset.attributes.insert(INHERITED_ALONG.to_owned(), axis.to_owned());
     }
     dataset.texts.insert(STUDY_TEXT.to_owned(), study.text.clone());
@@ -189,8 +189,7 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
         drawn::add(dataset, draws);
     }
     for axis in study.axes() {
-        let values = Values::reals(axis.values.clone());
-        dataset.put_coordinate(Entry::of_coordinate(axis.coordinate), values);
+        add_axis(dataset, axis);
     }
     if let Some(directions) = study.direction_axis() {
         let codes = directions.iter().map(|&direction| direction as i64).collect();
@@ -199,6 +198,22 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
         let axis = [DIRECTION.name.to_owned()].to_vec();
         let variable = Variable::of(DIRECTION, axis, Values::integers(codes)).with_flags(flags);
         dataset.coordinates.push((DIRECTION.name.to_owned(), variable));
+    }
+}
+
+/// Adds an axis: its values, or of a path its places, with the values of what varies along it as variables over these.
+fn add_axis(dataset: &mut Dataset, axis: &Axis) {
+    let Some(path) = &axis.path else {
+        for Varying { coordinate, values } in &axis.varying {
+            let values = Values::reals(values.clone());
+            dataset.put_coordinate(Entry::of_coordinate(*coordinate), values);
+        }
+        return;
+    };
+    dataset.put_coordinate(Entry::of_path(path), Values::count(axis.places()));
+    for Varying { coordinate, values } in &axis.varying {
+        let values = Values::reals(values.clone());
+        dataset.put(Entry::of_coordinate(*coordinate), &[path], values);
     }
 }
 

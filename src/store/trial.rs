@@ -91,7 +91,7 @@ fn sample(study: &Study, records: usize, computed: f64) -> Study {
 fn along_one_axis(study: &Study, cases: usize) -> Study {
     let values = (0..cases).map(|case| case as f64).collect();
     let coordinate = study.case_set.varied().into_iter().next();
-    let axes = coordinate.map(|coordinate| Axis { coordinate, values }).into_iter().collect();
+    let axes = coordinate.map(|coordinate| Axis::of(coordinate, values)).into_iter().collect();
     Study {
         case_set: CaseSet::Grid(Grid { axes, inherit: None }),
         refine: None,

@@ -1,4 +1,4 @@
-//! An axis of a study: a parameter or a coordinate of the start, and the values it takes.
+//! An axis of a study: what varies along it, and the values it takes.
 
 use std::fmt::{self, Debug, Formatter};
 
@@ -109,13 +109,116 @@ pub fn set(case: &mut Case, coordinate: Coordinate, value: f64) {
     }
 }
 
-/// One axis with its values (SI).
+/// What varies along an axis, with its values in order (SI).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Axis {
+pub struct Varying {
     /// What varies.
     pub coordinate: Coordinate,
-    /// The values, in order.
+    /// The values.
     pub values: Vec<f64>,
+}
+
+/// One axis of a grid: a coordinate, or a path, along which several vary together.
+#[derive(Clone, PartialEq)]
+pub struct Axis {
+    /// The name of a path; none of an axis that is called after its coordinate.
+    pub path: Option<String>,
+    /// What varies along it, in the order of the model, each with a value for every place; one thing where it is no path.
+    pub varying: Vec<Varying>,
+}
+
+/// As fingerprints of studies have it: an axis that is no path as before there were paths.
+impl Debug for Axis {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match (&self.path, &self.varying[..]) {
+            (None, [Varying { coordinate, values }]) => f
+                .debug_struct("Axis")
+                .field("coordinate", coordinate)
+                .field("values", values)
+                .finish(),
+            (path, varying) => {
+                f.debug_struct("Path").field("name", path).field("varying", &varying).finish()
+            }
+        }
+    }
+}
+
+impl Axis {
+    /// The axis of a coordinate with these values.
+    pub fn of(coordinate: Coordinate, values: Vec<f64>) -> Axis {
+        Axis { path: None, varying: vec![Varying { coordinate, values }] }
+    }
+
+    /// Its name, which is that of a dimension of the results.
+    pub fn name(&self) -> &str {
+        let own = self.varying.first().map_or("", |it| it.coordinate.name());
+        self.path.as_deref().unwrap_or(own)
+    }
+
+    /// How many places it has.
+    pub fn places(&self) -> usize {
+        self.varying.first().map_or(0, |it| it.values.len())
+    }
+
+    /// What varies along it.
+    pub fn coordinates(&self) -> impl Iterator<Item = Coordinate> + Clone {
+        self.varying.iter().map(|it| it.coordinate)
+    }
+
+    /// The values of a coordinate; none of one that does not vary along it.
+    pub fn values_of(&self, coordinate: Coordinate) -> Option<&[f64]> {
+        let own = self.varying.iter().find(|it| it.coordinate == coordinate)?;
+        Some(&own.values)
+    }
+
+    /// What varies along it, if that is one thing.
+    pub fn single(&self) -> Option<&Varying> {
+        if let [single] = &self.varying[..] { Some(single) } else { None }
+    }
+
+    /// Whether coordinates of the start alone vary along it, on which the set of attractors does not depend.
+    pub fn is_of_starts(&self) -> bool {
+        self.coordinates().all(Coordinate::is_start)
+    }
+
+    /// Whether parameters alone vary along it.
+    pub fn is_of_parameters(&self) -> bool {
+        self.coordinates().all(|it| matches!(it, Coordinate::Parameter(_)))
+    }
+
+    /// Gives `case` the values at a place.
+    pub fn set(&self, case: &mut Case, place: usize) {
+        self.varying.iter().for_each(|it| set(case, it.coordinate, it.values[place]));
+    }
+
+    /// The value of a coordinate at a place, which may lie between two, evenly between their values; none of one that does not vary.
+    pub fn value_between(&self, coordinate: Coordinate, place: f64) -> Option<f64> {
+        let values = self.values_of(coordinate)?;
+        let before = (place.max(0.0) as usize).min(values.len().checked_sub(1)?);
+        let after = (before + 1).min(values.len() - 1);
+        let share = (place - before as f64).clamp(0.0, 1.0);
+        Some(values[before] * (1.0 - share) + values[after] * share)
+    }
+
+    /// Leaves out all but some places, in this order.
+    pub fn keep(&mut self, places: &[usize]) {
+        for it in &mut self.varying {
+            it.values = places.iter().map(|place| it.values[*place]).collect();
+        }
+    }
+
+    /// The places at which something that varies along it has its least or its greatest value.
+    pub fn extremes(&self) -> Vec<usize> {
+        let ends = self.varying.iter().flat_map(|it| {
+            let by_value = |a: &usize, b: &usize| it.values[*a].total_cmp(&it.values[*b]);
+            let places = 0..it.values.len();
+            [places.clone().min_by(by_value), places.max_by(by_value)]
+        });
+        let mut places: Vec<usize> = ends.flatten().collect();
+        places.sort_unstable();
+        places.dedup();
+        places
+    }
 }
 
 /// A value this little beyond an axis, relative to its values, is at its end.
@@ -125,6 +228,13 @@ const ROUNDING: f64 = 1e-9;
 pub fn range(values: &[f64]) -> [f64; 2] {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     [least, values.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+}
+
+/// Whether values rise throughout, or fall throughout.
+pub fn is_monotone(values: &[f64]) -> bool {
+    let rises = |pair: &[f64]| pair[0] < pair[1];
+    let falls = |pair: &[f64]| pair[0] > pair[1];
+    values.windows(2).all(rises) || values.windows(2).all(falls)
 }
 
 /// Whether a value lies in the range of the values of an axis, to rounding.

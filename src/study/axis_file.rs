@@ -5,12 +5,14 @@ use std::collections::BTreeSet;
 use super::axis::Spacing;
 use super::document::{Entry, Table};
 use super::draws::{DrawKind, Range};
+use super::path_file::{is_path, read_path, refuse_drawn};
 use super::sobol_points::MOST_DIMENSIONS;
 use super::{Axis, CaseSet, Coordinate, Draws, Grid, Normal, Saltelli};
+use crate::description::Description;
 use crate::quantity::Allowed;
 
 /// More values on an axis, and more draws, than this are taken for a slip of the pen.
-const MOST_VALUES: u64 = 10_000_000;
+pub(super) const MOST_VALUES: u64 = 10_000_000;
 
 /// A distribution that has less than this in its range is taken for a slip of the pen.
 const LEAST_PROBABILITY: f64 = 1e-9;
@@ -27,6 +29,14 @@ pub(super) fn read_case_set(top: &Table<'_, '_>) -> CaseSet {
     }
     for entry in entries {
         let Some(table) = entry.table() else { continue };
+        if is_path(&table) {
+            if is_drawn {
+                refuse_drawn(&table);
+            }
+            axes.extend(read_path(&table, &axes, &mut seen));
+            table.finish();
+            continue;
+        }
         let name = table.entry("name");
         let coordinate = read_name(&table, name.as_ref());
         let values = (!is_drawn).then(|| read_values(&table, coordinate).unwrap_or_default());
@@ -39,7 +49,7 @@ pub(super) fn read_case_set(top: &Table<'_, '_>) -> CaseSet {
         }
         seen.push(coordinate);
         // With ends values too: what else names this axis is not at fault.
-        axes.extend(values.map(|values| Axis { coordinate, values }));
+        axes.extend(values.map(|values| Axis::of(coordinate, values)));
         let unread = Range::even(coordinate, [f64::NAN; 2], Spacing::Linear);
         ranges.push(range.unwrap_or(unread));
     }
@@ -106,12 +116,16 @@ fn read_base_samples(table: &Table<'_, '_>, quantities: usize) -> Option<u64> {
     Some(rows)
 }
 
+/// What an axis of a study of a model may vary, by its names.
+pub(super) fn names(model: &'static Description) -> Vec<(&'static str, Coordinate)> {
+    let own = Coordinate::all(model).map(|coordinate| (coordinate.name(), coordinate));
+    let older = Coordinate::phases(model).take(1).map(|it| (Coordinate::PHASE, it));
+    own.chain(older).collect()
+}
+
 /// What varies along an axis.
 fn read_name(table: &Table<'_, '_>, name: Option<&Entry<'_, '_>>) -> Option<Coordinate> {
-    let names: Vec<(&str, Coordinate)> = Coordinate::all(table.model())
-        .map(|coordinate| (coordinate.name(), coordinate))
-        .chain(Coordinate::phases(table.model()).take(1).map(|it| (Coordinate::PHASE, it)))
-        .collect();
+    let names = names(table.model());
     if name.is_none() {
         let others = Coordinate::all(table.model())
             .filter(|it| !matches!(it, Coordinate::Parameter(_)))
@@ -125,7 +139,7 @@ fn read_name(table: &Table<'_, '_>, name: Option<&Entry<'_, '_>>) -> Option<Coor
 }
 
 /// The value of an entry of an axis, if it is allowed.
-fn quantity(entry: &Entry<'_, '_>, coordinate: Option<Coordinate>) -> Option<f64> {
+pub(super) fn quantity(entry: &Entry<'_, '_>, coordinate: Option<Coordinate>) -> Option<f64> {
     let coordinate = coordinate?;
     entry.allowed_quantity(coordinate.dimension(), coordinate.allowed())
 }

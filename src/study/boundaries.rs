@@ -1,6 +1,6 @@
 //! The boundaries between the regions of a map that a study asks for, to be followed as curves.
 
-use super::{Coordinate, Grid};
+use super::{Axis, Coordinate, Grid, Varying};
 use crate::description::Parameter;
 
 /// How the boundaries of a map are followed.
@@ -19,11 +19,16 @@ pub struct Boundaries {
 /// None where a grid has other axes than two of parameters, each with several values.
 pub fn parameters_of_map(grid: &Grid) -> Option<[Parameter; 2]> {
     let [slow, fast] = &grid.axes[..] else { return None };
-    let parameter = |axis: &super::Axis| match axis.coordinate {
-        Coordinate::Parameter(parameter) if spans(&axis.values) => Some(parameter),
+    Some([parameter_along(slow)?, parameter_along(fast)?])
+}
+
+/// The parameter that alone varies along an axis, if its values rise or fall.
+fn parameter_along(axis: &Axis) -> Option<Parameter> {
+    let Varying { coordinate, values } = axis.single()?;
+    match coordinate {
+        Coordinate::Parameter(parameter) if spans(values) => Some(*parameter),
         _ => None,
-    };
-    Some([parameter(slow)?, parameter(fast)?])
+    }
 }
 
 /// Whether there are several values, all rising or all falling.

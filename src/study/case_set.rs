@@ -34,7 +34,7 @@ impl CaseSet {
     }
 
     /// The names of the dimensions of the results, slowest first.
-    pub fn dimensions(&self) -> Vec<&'static str> {
+    pub fn dimensions(&self) -> Vec<&str> {
         match self {
             CaseSet::Grid(grid) => grid.dimensions(),
             CaseSet::Draws(_) => vec![Draws::DIMENSION],
@@ -44,7 +44,7 @@ impl CaseSet {
     /// What differs from case to case, in the order of the study.
     pub fn varied(&self) -> Vec<Coordinate> {
         match self {
-            CaseSet::Grid(grid) => grid.axes.iter().map(|axis| axis.coordinate).collect(),
+            CaseSet::Grid(grid) => grid.axes.iter().flat_map(Axis::coordinates).collect(),
             CaseSet::Draws(draws) => draws.ranges.iter().map(|range| range.coordinate).collect(),
         }
     }
@@ -66,9 +66,7 @@ impl CaseSet {
     /// The least and the greatest value that a coordinate takes, if it varies.
     pub fn ends(&self, coordinate: Coordinate) -> Option<[f64; 2]> {
         let own = match self {
-            CaseSet::Grid(grid) => {
-                &grid.axes.iter().find(|axis| axis.coordinate == coordinate)?.values[..]
-            }
+            CaseSet::Grid(grid) => grid.axes.iter().find_map(|axis| axis.values_of(coordinate))?,
             CaseSet::Draws(draws) => {
                 let range = draws.ranges.iter().find(|range| range.coordinate == coordinate)?;
                 &[range.from, range.to]
@@ -83,7 +81,7 @@ impl CaseSet {
         match self {
             CaseSet::Grid(grid) => {
                 for (axis, position) in grid.axes.iter().zip(grid.position(index)) {
-                    set(case, axis.coordinate, axis.values[position]);
+                    axis.set(case, position);
                 }
             }
             CaseSet::Draws(draws) => {
@@ -107,7 +105,8 @@ impl CaseSet {
     pub fn truncate(&mut self, most: usize) {
         match self {
             CaseSet::Grid(grid) => {
-                grid.axes.iter_mut().for_each(|axis| shorten(&mut axis.values, most));
+                let varying = grid.axes.iter_mut().flat_map(|axis| &mut axis.varying);
+                varying.for_each(|it| shorten(&mut it.values, most));
             }
             CaseSet::Draws(draws) => draws.truncate(most),
         }

@@ -2,7 +2,7 @@
 
 use super::axis::set;
 use super::document::Table;
-use super::{Axis, Coordinate, Study};
+use super::{Axis, CaseSet, Coordinate, Study};
 use crate::description::{Parameter, Parameters, Remark};
 use crate::motion::Case;
 
@@ -52,39 +52,44 @@ fn conflicts(parameters: &Parameters, phase: f64) -> Option<Vec<Remark>> {
 
 /// Looks at the corners of what varies, and between them at the values of each axis.
 fn in_what_varies(study: &Study, base: Case) -> Option<Vec<Remark>> {
-    let ends: Vec<(Coordinate, [f64; 2])> = study
-        .case_set
-        .varied()
-        .into_iter()
-        .filter(|it| matches!(it, Coordinate::Parameter(_) | Coordinate::SectionPhase))
-        .filter_map(|it| Some((it, study.case_set.ends(it)?)))
-        .collect();
+    let axes: Vec<&Axis> = study.axes().iter().filter(|it| it.coordinates().any(is_set)).collect();
     let mut corners = vec![base];
-    for (coordinate, ends) in &ends {
-        corners = both(&corners, *coordinate, ends);
+    for axis in axes.iter().filter(|axis| axis.places() > 0) {
+        corners = both(&corners, &axis.extremes(), |case, place| axis.set(case, *place));
+    }
+    if let CaseSet::Draws(draws) = &study.case_set {
+        for range in draws.ranges.iter().filter(|range| is_set(range.coordinate)) {
+            let Some(ends) = study.case_set.ends(range.coordinate) else { continue };
+            corners = both(&corners, &ends, |case, value| set(case, range.coordinate, *value));
+        }
     }
     let of_corners = corners.iter().find_map(|it| conflicts(&it.parameters, it.section_phase));
-    let moved = |it: &&Axis| ends.iter().any(|(known, _)| *known == it.coordinate);
-    of_corners.or_else(|| study.axes().iter().filter(moved).find_map(|it| along(it, &corners)))
+    of_corners.or_else(|| axes.iter().find_map(|it| along(it, &corners)))
 }
 
-/// Looks at the values of an axis beside the ends of all others.
+/// Whether a coordinate is part of what a motion is judged by, wherever it starts.
+fn is_set(coordinate: Coordinate) -> bool {
+    matches!(coordinate, Coordinate::Parameter(_) | Coordinate::SectionPhase)
+}
+
+/// Looks at the places of an axis beside the ends of all others.
 fn along(axis: &Axis, corners: &[Case]) -> Option<Vec<Remark>> {
     corners.iter().find_map(|corner| {
         let mut case = corner.clone();
-        axis.values.iter().find_map(|value| {
-            set(&mut case, axis.coordinate, *value);
+        (0..axis.places()).find_map(|place| {
+            axis.set(&mut case, place);
             conflicts(&case.parameters, case.section_phase)
         })
     })
 }
 
-/// These cases with each of some values in a coordinate.
-fn both(cases: &[Case], coordinate: Coordinate, values: &[f64]) -> Vec<Case> {
-    let with = |case: &Case, value: f64| {
+/// These cases at each of some ends of what varies.
+fn both<T>(cases: &[Case], ends: &[T], put: impl Fn(&mut Case, &T)) -> Vec<Case> {
+    let mut at_ends = Vec::with_capacity(cases.len() * ends.len());
+    for (case, end) in cases.iter().flat_map(|case| ends.iter().map(move |end| (case, end))) {
         let mut case = case.clone();
-        set(&mut case, coordinate, value);
-        case
-    };
-    cases.iter().flat_map(|case| values.iter().map(move |value| with(case, *value))).collect()
+        put(&mut case, end);
+        at_ends.push(case);
+    }
+    at_ends
 }

@@ -95,7 +95,7 @@ impl Study {
     }
 
     /// The names of the dimensions of the results, slowest first.
-    pub fn dimensions(&self) -> Vec<&'static str> {
+    pub fn dimensions(&self) -> Vec<&str> {
         self.case_set.dimensions()
     }
 

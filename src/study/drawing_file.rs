@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::appearance::{Setting, SettingText, Settings, dimension_of};
-use super::axis::{is_within, range};
-use super::document::{Entry, Table, unknown};
-use super::drawing::{COLOURED_BY, Held, Size, Sweep, Texts, check_panels, check_text};
-use super::{Axis, CaseSet, Coordinate, Drawing, DrawingKind, Refine};
+use super::document::{Entry, Table};
+use super::drawing::{COLOURED_BY, Size, Sweep, Texts, check_text};
+use super::held_file::{names_along, older_name, read_at};
+use super::{Axis, CaseSet, Drawing, DrawingKind, Refine};
 use crate::description::{Output, Parameter};
 use crate::quantity::{Dimension, parse_quantity};
 
@@ -155,14 +155,14 @@ fn read_settings(table: &Table<'_, '_>) -> Settings {
 }
 
 /// What a figure of this kind can run along: the axes, and the parameters of branches and ramps where it shows them.
-fn abscissae(
+fn abscissae<'a>(
     kind: Option<DrawingKind>,
-    axes: &[Axis],
+    axes: &'a [Axis],
     varied_beside: &[Parameter],
-) -> Vec<(&'static str, &'static str)> {
+) -> Vec<(&'a str, &'a str)> {
     let shows_branches = kind.is_some_and(|kind| kind.keys().continued);
     let varied = varied_beside.iter().filter(|_| shows_branches).copied();
-    let mut names: Vec<_> = axes.iter().map(|axis| axis.coordinate.name()).collect();
+    let mut names = names_along(axes);
     for name in varied.map(Parameter::symbol) {
         if !names.contains(&name) {
             names.push(name);
@@ -171,12 +171,6 @@ fn abscissae(
     let mut names: Vec<_> = names.into_iter().map(|name| (name, name)).collect();
     names.extend(axes.iter().find_map(older_name));
     names
-}
-
-/// The older name of an axis with the one that it has now, if it has one.
-fn older_name(axis: &Axis) -> Option<(&'static str, &'static str)> {
-    let has_one = axis.coordinate == Coordinate::StartPhase;
-    has_one.then_some((Coordinate::PHASE, axis.coordinate.name()))
 }
 
 /// A name that can stand before the extension of a file.
@@ -291,7 +285,7 @@ fn read_colour_by(
         entry.fault(format!("does not go with a figure of the kind {}", kind.name()));
     }
     let names = outputs.iter().map(|it| it.name()).chain(COLOURED_BY);
-    let names = names.chain(axes.iter().map(|it| it.coordinate.name()));
+    let names = names.chain(names_along(axes));
     let names: Vec<_> = names.map(|name| (name, name)).collect();
     entry.one_of("output, axis or kind", &names).map(str::to_owned)
 }
@@ -306,58 +300,4 @@ fn read_cycles(entry: &Entry<'_, '_>) -> Option<[f64; 2]> {
         entry.fault(format!("expected two numbers of cycles, the lesser first, found {found}"));
     }
     range
-}
-
-/// Whether a name is that of an axis, or its older one.
-fn is_named(axis: &Axis, name: &str) -> bool {
-    axis.coordinate.name() == name || older_name(axis).is_some_and(|it| it.0 == name)
-}
-
-fn read_at(table: &Table<'_, '_>, axes: &[Axis], kind: Option<DrawingKind>) -> Held {
-    let (mut at, mut several, mut last) = (BTreeMap::new(), BTreeMap::new(), None);
-    for (name, entry) in table.entries() {
-        match axes.iter().position(|axis| is_named(axis, &name)) {
-            Some(place) if entry.is_list() => {
-                let values =
-                    entry.list().iter().filter_map(|it| value_of(it, &axes[place])).collect();
-                several.insert(place, values);
-                if kind.is_some_and(|kind| !kind.keys().panels) {
-                    let kinds = DrawingKind::with_panels();
-                    entry.fault(format!(
-                        "expected one value for this kind of figure; {kinds} take lists"
-                    ));
-                }
-                last = Some(entry);
-            }
-            Some(place) => {
-                let value = value_of(&entry, &axes[place]);
-                at.extend(value.map(|value| (axes[place].coordinate.name().to_owned(), value)));
-            }
-            None => {
-                let names = axes.iter().map(|axis| axis.coordinate.name());
-                entry.fault(unknown("axis of this study", &name, names));
-            }
-        }
-    }
-    let panels: Vec<(String, Vec<f64>)> = several
-        .into_iter()
-        .map(|(place, values)| (axes[place].coordinate.name().to_owned(), values))
-        .collect();
-    if let (Err(fault), Some(entry)) = (check_panels(&panels), last) {
-        entry.fault(fault);
-    }
-    (at, panels)
-}
-
-/// The value at which an axis is held; faults are noted.
-fn value_of(entry: &Entry<'_, '_>, axis: &Axis) -> Option<f64> {
-    let value = entry.quantity(axis.coordinate.dimension());
-    if value.is_some_and(|value| !is_within(value, &axis.values)) {
-        let [low, high] = range(&axis.values);
-        let found = entry.shown();
-        entry.fault(format!(
-            "expected a value within the axis, from {low} to {high} in SI units, found {found}"
-        ));
-    }
-    value
 }

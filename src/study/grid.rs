@@ -74,13 +74,13 @@ impl Iterator for Chain {
 impl Grid {
     /// Number of values along each dimension, slowest first.
     pub fn shape(&self) -> Vec<usize> {
-        let axes = self.axes.iter().map(|axis| axis.values.len());
+        let axes = self.axes.iter().map(Axis::places);
         axes.chain(self.direction_axis().map(<[Direction]>::len)).collect()
     }
 
     /// The names of the dimensions, slowest first.
-    pub fn dimensions(&self) -> Vec<&'static str> {
-        let axes = self.axes.iter().map(|axis| axis.coordinate.name());
+    pub fn dimensions(&self) -> Vec<&str> {
+        let axes = self.axes.iter().map(Axis::name);
         axes.chain(self.direction_axis().map(|_| "direction")).collect()
     }
 
@@ -97,7 +97,7 @@ impl Grid {
         let Some(inherit) = &self.inherit else { return 1 };
         let chains = inherit.directions.iter().map(|direction| match direction {
             Direction::Upward | Direction::Downward => 1,
-            Direction::Afresh => self.axes[inherit.axis].values.len(),
+            Direction::Afresh => self.axes[inherit.axis].places(),
         });
         chains.sum()
     }
@@ -105,7 +105,7 @@ impl Grid {
     /// Cases of such a group.
     pub(super) fn cases_of_group(&self) -> usize {
         let inherit = self.inherit.as_ref();
-        inherit.map_or(1, |it| self.axes[it.axis].values.len() * it.directions.len())
+        inherit.map_or(1, |it| self.axes[it.axis].places() * it.directions.len())
     }
 
     /// The cases of chain `number`, to be run in order; a chain is one case where no start is inherited.
@@ -113,7 +113,7 @@ impl Grid {
         let Some(inherit) = &self.inherit else {
             return Chain::one(number);
         };
-        let length = self.axes[inherit.axis].values.len();
+        let length = self.axes[inherit.axis].places();
         let spacing: usize = self.shape()[inherit.axis + 1..].iter().product();
         let inner = spacing / inherit.directions.len();
         let (group, mut left) = (number / self.chains_of_group(), number % self.chains_of_group());

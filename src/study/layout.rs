@@ -1,6 +1,6 @@
 //! How the cases of a study lie in lines of cells, by arithmetic on their indices.
 
-use super::{CaseSet, Coordinate, Study};
+use super::{CaseSet, Study};
 
 /// Some dimensions of a study, slowest first: the length of each, and how far apart in the index two cases
 /// are that are neighbours along it.
@@ -53,7 +53,7 @@ impl Layout {
         for (place, &length) in shape.iter().enumerate() {
             let dimensions = match study.axes().get(place) {
                 _ if Some(place) == axis => &mut layout.cells,
-                Some(other) if !other.coordinate.is_start() => &mut layout.lines,
+                Some(other) if !other.is_of_starts() => &mut layout.lines,
                 // A start, or the directions, which are no axis.
                 _ => &mut layout.cases,
             };
@@ -84,17 +84,16 @@ impl Layout {
     }
 }
 
-/// The axis along which cases inherit their start, or else the only parameter that varies.
+/// The axis along which cases inherit their start, or else the only one along which something else than starts varies, if that is
+/// parameters alone.
 pub fn linked_axis(study: &Study) -> Option<usize> {
     if let Some(inherit) = study.inherit() {
         return Some(inherit.axis);
     }
-    let mut varies =
-        (0..study.axes().len()).filter(|axis| !study.axes()[*axis].coordinate.is_start());
+    let mut varies = (0..study.axes().len()).filter(|axis| !study.axes()[*axis].is_of_starts());
     let first = varies.next()?;
     let alone = varies.next().is_none();
-    let parameter = matches!(study.axes()[first].coordinate, Coordinate::Parameter(_));
-    (alone && parameter).then_some(first)
+    (alone && study.axes()[first].is_of_parameters()).then_some(first)
 }
 
 #[cfg(test)]

@@ -92,7 +92,7 @@ fn unfit(case_set: &CaseSet) -> Option<String> {
     let of_parameters = varied.iter().all(|it| matches!(it, Coordinate::Parameter(_)));
     match case_set {
         CaseSet::Grid(grid)
-            if of_parameters && grid.inherit.is_none() && (2..=AXES).contains(&varied.len()) =>
+            if of_parameters && grid.inherit.is_none() && (2..=AXES).contains(&grid.axes.len()) =>
         {
             None
         }

@@ -105,10 +105,10 @@ fn read_inherit(table: &Table<'_, '_>, axes: &[Axis]) -> Option<Inherit> {
         return None;
     };
     let choices: Vec<(&str, usize)> =
-        axes.iter().enumerate().map(|(i, axis)| (axis.coordinate.name(), i)).collect();
+        axes.iter().enumerate().map(|(i, axis)| (axis.name(), i)).collect();
     let axis = inherit.one_of("axis of this study", &choices)?;
-    if !matches!(axes[axis].coordinate, Coordinate::Parameter(_)) {
-        inherit.fault("must be a parameter; an axis over the start gives the start itself");
+    if !axes[axis].is_of_parameters() {
+        inherit.fault("must be of parameters; an axis over the start gives the start itself");
     }
     let mut chosen = Vec::new();
     for entry in directions.map(|entry| entry.list()).unwrap_or_default() {

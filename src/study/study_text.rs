@@ -5,10 +5,11 @@ use super::continuation::FirstOrbit;
 use super::drawing_text::write_drawing;
 use super::draws::Range;
 use super::own_outputs::written;
+use super::path_text::write_path;
 use super::toml_text::{Document, inline, list, number, plain_quantity, quantity, text};
 use super::{
     Axis, Boundaries, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit,
-    Normal, Ramp, Refine, Spacing, Study,
+    Normal, Ramp, Refine, Spacing, Study, Varying,
 };
 use crate::description::{Parameter, Parameters, Presence, State};
 use crate::of::default_model;
@@ -118,7 +119,7 @@ impl Study {
             return;
         };
         // An axis that is not there is named by its number, which is refused as unknown.
-        let name = axes.get(*axis).map(|axis| axis.coordinate.name().to_owned());
+        let name = axes.get(*axis).map(|axis| axis.name().to_owned());
         document.put("inherit", text(&name.unwrap_or_else(|| axis.to_string())));
         document.put("directions", list(directions.iter().map(|it| text(it.name()))));
     }
@@ -205,9 +206,11 @@ fn start(
 }
 
 fn write_axis(document: &mut Document, axis: &Axis) {
-    let Axis { coordinate, values } = axis;
     document.element("axes");
-    document.put("name", text(coordinate.name()));
+    document.put("name", text(axis.name()));
+    let (None, Some(Varying { coordinate, values })) = (&axis.path, axis.single()) else {
+        return write_path(document, axis);
+    };
     let dimension = coordinate.dimension();
     match spacing(values) {
         Some((from, to, spacing)) => {
@@ -231,7 +234,7 @@ fn spacing(values: &[f64]) -> Option<(f64, f64, Spacing)> {
 }
 
 /// Whether values are the same to the bit.
-fn are_same(some: &[f64], others: &[f64]) -> bool {
+pub(super) fn are_same(some: &[f64], others: &[f64]) -> bool {
     some.iter().zip(others).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 

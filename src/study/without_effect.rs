@@ -1,7 +1,7 @@
 //! What a study gives or varies without effect on its motion, under what it chooses of its model.
 
 use super::axis::range;
-use super::{Axis, Continuation, Coordinate, Study};
+use super::{Axis, Continuation, Coordinate, Study, Varying};
 use crate::description::{Parameter, Parameters, Threshold};
 
 impl Study {
@@ -59,8 +59,27 @@ impl Study {
     }
 
     fn why_without_effect(&self, axis: &Axis) -> Option<String> {
-        let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
-        self.why_idle(axis.coordinate).or_else(|| self.idle_values(axis, parameter))
+        let Some(Varying { coordinate, values }) = axis.single() else {
+            return self.why_idle_along_path(axis);
+        };
+        let Coordinate::Parameter(parameter) = *coordinate else { return None };
+        self.why_idle(*coordinate).or_else(|| self.idle_values(axis, parameter, values))
+    }
+
+    /// That what varies along a path has no effect, in a part or all of it.
+    fn why_idle_along_path(&self, axis: &Axis) -> Option<String> {
+        let parameters = axis.coordinates().filter_map(|it| match it {
+            Coordinate::Parameter(parameter) => Some((parameter, self.reason(parameter)?)),
+            _ => None,
+        });
+        let idle: Vec<(Parameter, String)> = parameters.collect();
+        let told = idle.iter().map(|(it, why)| format!("{} has no effect {why}", it.symbol()));
+        let told: Vec<String> = told.collect();
+        let all = match idle.len() == axis.varying.len() {
+            true => format!("; all places of {} give the same motion", axis.name()),
+            false => String::new(),
+        };
+        (!told.is_empty()).then(|| format!("{}{all}", told.join("; ")))
     }
 
     /// That all values of a coordinate give the same motion.
@@ -86,16 +105,15 @@ impl Study {
     }
 
     /// That several values of an axis have no effect, beside all values of the other axes.
-    fn idle_values(&self, axis: &Axis, parameter: Parameter) -> Option<String> {
+    fn idle_values(&self, axis: &Axis, parameter: Parameter, values: &[f64]) -> Option<String> {
         let mut beside = vec![self.base.clone()];
-        for other in self.axes().iter().filter(|it| it.coordinate != axis.coordinate) {
-            let Coordinate::Parameter(other_parameter) = other.coordinate else { continue };
-            beside = range(&other.values)
-                .into_iter()
-                .flat_map(|end| {
+        for other in self.axes().iter().filter(|it| it.name() != axis.name()) {
+            let at_ends = other.extremes().into_iter().map(|place| parameters_at(other, place));
+            beside = at_ends
+                .flat_map(|of_end| {
                     beside.iter().map(move |it| {
                         let mut it = it.clone();
-                        it[other_parameter] = end;
+                        of_end.iter().for_each(|(parameter, value)| it[*parameter] = *value);
                         it
                     })
                 })
@@ -104,11 +122,20 @@ impl Study {
         let limits = beside.iter().map(|it| self.threshold(it, parameter));
         let limits: Vec<Threshold> = limits.collect::<Option<_>>()?;
         let least = limits.into_iter().min_by(|a, b| a.value.total_cmp(&b.value))?;
-        let idle = axis.values.iter().filter(|value| **value < least.value).count();
-        let why = idle_below(parameter, &least, range(&axis.values)[0]).filter(|_| idle > 1)?;
-        let all = axis.values.len();
+        let idle = values.iter().filter(|value| **value < least.value).count();
+        let why = idle_below(parameter, &least, range(values)[0]).filter(|_| idle > 1)?;
+        let all = values.len();
         Some(format!("{why}; {idle} of its {all} values give the same motion"))
     }
+}
+
+/// The parameters that vary along an axis with their values at a place.
+fn parameters_at(axis: &Axis, place: usize) -> Vec<(Parameter, f64)> {
+    let varying = axis.varying.iter().filter_map(|it| match it.coordinate {
+        Coordinate::Parameter(parameter) => Some((parameter, it.values[place])),
+        _ => None,
+    });
+    varying.collect()
 }
 
 /// Those of some parameters that have no effect by what is chosen and given, in sentences, one for each reason.

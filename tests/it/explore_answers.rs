@@ -156,10 +156,15 @@ fn a_line_is_that_of_its_study() {
         let [there, here] = [speed(point), speed(&told["simulate"]["orbit"])];
         assert!((there - here).abs() <= 1e-9 * there.abs().max(1e-3), "{omega}: {there} {here}");
     }
-    // A line across the map has no study, and says why.
-    let across = explorer.lines("/api/line?p_d=3&to_p_d=4&omega=45&to_omega=70&count=4");
-    assert!(across[0]["study"].is_null() && across[0]["why"].as_str().is_some());
+    // A line across the map is a study of a path.
+    let across =
+        explorer.lines("/api/line?p_d=3&to_p_d=4&omega=45&to_omega=70&count=4&start=afresh");
     assert_eq!(across.len(), 5);
+    work.put("across.toml", across[0]["study"].as_str().expect("a study"));
+    work.run(&["sweep", "across.toml", "--output", "across.h5", "--no-figures"]).done();
+    let speeds: Vec<f64> =
+        across[1..].iter().map(|it| it["progression_speed"].as_f64().expect("a speed")).collect();
+    assert_eq!(speeds, reals(&results(&work, "across.h5"), "progression_speed"));
 }
 
 /// The branches through the motions of a line pass all of its motions that repeat with the same period, which are simulated; and

@@ -8,7 +8,7 @@ use capsulemap_engine::attractor::{Attractor, Bridge, Executor, FinalMotion, Lin
 use capsulemap_engine::branch::{NotFollowed, Segment};
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::matrix::Complex;
-use capsulemap_engine::orbit::{Machine, Protocol};
+use capsulemap_engine::orbit::{Machine, Protocol, Varied};
 
 use crate::description::{Description, Outputs, Parameter, Parameters, Section};
 use crate::motion::branch::{Found, Request};
@@ -56,13 +56,13 @@ impl Debug for Motions<'_> {
     }
 }
 
-/// What is held while one parameter varies.
+/// What is held while one parameter varies, or several in step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Along {
     /// The phase, and the values of the other parameters.
     pub setting: Setting,
-    /// The parameter that varies.
-    pub parameter: Parameter,
+    /// What varies; what is called the value of a parameter is the number of this.
+    pub varied: Varied<Parameter>,
     /// Relative local error of a step of the integrator.
     pub tolerance: f64,
 }

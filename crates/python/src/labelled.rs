@@ -3,7 +3,7 @@
 use capsulemap::store::catalogue::DIRECTION;
 use capsulemap::store::{
     Attribute, Dataset, Element, TEXT_MEANING, Values, Variable, attributes_of, attributes_of_set,
-    constants_beside_cases, has_missing,
+    auxiliary, constants_beside_cases, has_missing, paths,
 };
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
@@ -12,6 +12,7 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 /// A dataset as `{"variables": {name: (dimensions, values, attributes)}, "attributes": {...}}`, as a reader of the file has it
 /// before it decodes what is missing.
 pub fn of_dataset(py: Python<'_>, dataset: Dataset) -> PyResult<Bound<'_, PyDict>> {
+    let paths = paths(&dataset);
     let variables = PyDict::new(py);
     let attributes = PyDict::new(py);
     for (name, attribute) in attributes_of_set(&dataset) {
@@ -42,6 +43,10 @@ pub fn of_dataset(py: Python<'_>, dataset: Dataset) -> PyResult<Bound<'_, PyDict
     for (name, variable) in dataset.variables {
         let element = element(&variable);
         let own = labels_of(py, &name, &variable, element)?;
+        let auxiliary = auxiliary(&paths, &name, &variable.dimensions);
+        if !auxiliary.is_empty() {
+            own.set_item("coordinates", auxiliary)?;
+        }
         let dimensions = PyTuple::new(py, &variable.dimensions)?;
         let values = array(py, variable.values, element);
         variables.set_item(name, (dimensions, values, own))?;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use capsulemap::campaign::{InMemory, OnDisk, Wanted, check_names, read_study};
+use capsulemap::campaign::{InMemory, OnDisk, Wanted, check_names, check_paths, read_study};
 use capsulemap::study::{self, Fault, Faults};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -108,7 +108,8 @@ impl Study {
 impl Study {
     fn named(py: Python<'_>, study: study::Study, name: &str) -> PyResult<Study> {
         let model = study.base.model();
-        check_names(name, model).map_err(|error| failure::of_campaign(py, error))?;
+        let checked = check_names(name, model).and_then(|()| check_paths(name, &study));
+        checked.map_err(|error| failure::of_campaign(py, error))?;
         Ok(Study(Arc::new(study)))
     }
 }

@@ -236,16 +236,17 @@ fn axis(asked: &Asked, coordinate: Coordinate, usual: [f64; 2]) -> Result<Axis, 
     let from = asked.number(&low)?.unwrap_or(usual[0]);
     let to = asked.number(&high)?.unwrap_or(usual[1]);
     match from < to {
-        true => Ok(Axis { coordinate, values: Spacing::Linear.values(from, to, SIDE) }),
+        true => Ok(Axis::of(coordinate, Spacing::Linear.values(from, to, SIDE))),
         false => Err(Refusal::unfit(format!("{low} must be less than {high}"))),
     }
 }
 
 /// An axis of starts, its ends in the unit shown.
 fn axis_json(explored: &Explored, axis: &Axis) -> Value {
-    let name = axis.coordinate.name();
+    let name = axis.name();
     let it = shown_quantity(name, explored.archive.frame());
-    let range = [axis.values[0], axis.values[SIDE - 1]].map(|value| value * it.factor);
+    let values = &axis.varying[0].values;
+    let range = [values[0], values[SIDE - 1]].map(|value| value * it.factor);
     json!({ "name": name, "label": it.label, "factor": it.factor, "range": range })
 }
 

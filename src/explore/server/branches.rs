@@ -16,7 +16,7 @@ use crate::motion::branch::{Branch, Found, Point, Request, Special};
 use crate::of::model_of;
 use crate::store::catalogue::section;
 use crate::study::axis::range;
-use crate::study::{Axis, Coordinate, Spacing};
+use crate::study::{Coordinate, Spacing, Varying};
 
 /// Longest step, as a share of the line.
 const LONGEST_STEP: f64 = 0.01;
@@ -31,7 +31,7 @@ const INSTEAD: &str =
 
 /// The branch through an orbit at one value of a line.
 pub struct LineBranch {
-    axis: Axis,
+    axis: Varying,
     /// How its values lie between its ends.
     spacing: Spacing,
     request: Request,
@@ -49,7 +49,7 @@ impl LineBranch {
         let own: Vec<String> = names.chain(["period", "place"].map(str::to_owned)).collect();
         let own: Vec<&str> = own.iter().map(String::as_str).collect();
         let line = Line::with(explored, asked, &own)?;
-        let Some(axis) = line.axis() else {
+        let Some(axis) = line.single() else {
             return Err(Refusal::unfit(
                 "a branch is followed in one parameter, and this line varies several coordinates together",
             ));

@@ -35,8 +35,8 @@ pub fn described(explored: &Explored, running: Value) -> Value {
 
 /// An axis of the study, with its values.
 fn axis_json(explored: &Explored, axis: &Axis) -> Value {
-    let mut told = shown_json(explored, axis.coordinate.name());
-    told["values"] = json!(axis.values);
+    let mut told = shown_json(explored, axis.name());
+    told["values"] = json!(axis.single().map(|it| &it.values));
     told
 }
 

@@ -49,6 +49,13 @@ impl Explored {
     /// Fails if the text of the study has faults for this version of the program.
     pub fn new(archive: Archive, file: &Path) -> Result<Explored, CampaignError> {
         let study = study_of(&archive, file)?;
+        if let Some(path) = study.axes().iter().find(|axis| axis.path.is_some()) {
+            let why = format!(
+                "its cases lie along the path `{}`, which the page cannot show; `capsulemap figure` draws them",
+                path.name()
+            );
+            return Err(CampaignError::Path { path: file.to_owned(), fault: why });
+        }
         Ok(Explored { archive, file: file.to_owned(), study, last: Mutex::new(None) })
     }
 
@@ -99,7 +106,7 @@ impl Explored {
         let (Some(x), Some(y)) = (&drawing.x, &drawing.y) else { return Ok(BTreeMap::new()) };
         let mut held = BTreeMap::new();
         for axis in self.study.axes() {
-            let name = axis.coordinate.name();
+            let name = axis.name();
             if name != x && name != y {
                 let wanted = drawing.at.get(name);
                 let place = wanted.map_or(Ok(0), |wanted| place_along(axis, *wanted))?;
@@ -188,8 +195,8 @@ impl Explored {
     /// Where the nearest case is along each dimension of the results.
     fn nearest(&self, given: &[(Coordinate, f64)]) -> Vec<usize> {
         let along_axes = self.study.axes().iter().map(|axis| {
-            let wanted = given.iter().find(|it| it.0 == axis.coordinate);
-            wanted.map_or(0, |(_, wanted)| nearest(&axis.values, *wanted))
+            let found = given.iter().find_map(|it| Some((axis.values_of(it.0)?, it.1)));
+            found.map_or(0, |(values, wanted)| nearest(values, wanted))
         });
         along_axes.chain(std::iter::repeat(0)).take(self.study.shape().len()).collect()
     }
@@ -205,11 +212,12 @@ impl Explored {
 ///
 /// Fails if the axis does not have it.
 fn place_along(axis: &Axis, wanted: f64) -> Result<usize, Refusal> {
-    let place = nearest(&axis.values, wanted);
-    if is_within(wanted, &axis.values[place..=place]) {
+    let values = axis.single().map_or(&[][..], |it| &it.values);
+    let place = nearest(values, wanted);
+    if is_within(wanted, &values[place..=place]) {
         return Ok(place);
     }
-    let (name, near) = (axis.coordinate.name(), axis.values[place]);
+    let (name, near) = (axis.name(), values[place]);
     Err(Refusal::unfit(format!("{name}: its axis has no value {wanted}; the nearest is {near}")))
 }
 

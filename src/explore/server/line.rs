@@ -15,6 +15,7 @@ use crate::store::catalogue::{OUTCOME, PERIOD, section};
 use crate::study::axis::set;
 use crate::study::{
     Axis, CaseSet, Coordinate, Direction, Drawing, DrawingKind, Grid, Inherit, Spacing, Study,
+    Varying,
 };
 
 /// Values along the line.
@@ -32,9 +33,11 @@ fn shown_outputs(model: &'static Description) -> Vec<Output> {
         false => vec![model.main_output(), model.exponent()],
     }
 }
-/// Why a line that goes along no axis has no study.
-pub const NO_STUDY: &str = "a study varies one coordinate along an axis, and this line varies several together; a line along one axis \
-     has a study and a figure";
+/// Why a line has no study.
+pub const NO_STUDY: &str = "no study can hold this line";
+
+/// The name of the path of a line along which several coordinates vary.
+const PATH: &str = "line";
 
 /// What computes a line that takes too long here.
 pub const INSTEAD: &str =
@@ -45,7 +48,7 @@ pub struct Line {
     /// The case at its beginning, with the values of all coordinates but those that vary.
     first: Case,
     /// What varies, one at least, with as many values each.
-    varied: Vec<Axis>,
+    varied: Vec<Varying>,
     /// Whether each case starts where the one before it settled.
     inherits: bool,
     protocol: Protocol,
@@ -94,20 +97,22 @@ impl Line {
         }
     }
 
-    /// The study of a line along one axis, with its diagram.
+    /// The study of the line, with its diagram: along an axis, or along a path where several coordinates vary.
     pub fn study(&self) -> Option<Study> {
-        let axis = self.axis()?;
+        let path = self.single().is_none().then(|| PATH.to_owned());
+        let axis = Axis { path, varying: self.varied.clone() };
         let inherit =
             self.inherits.then(|| Inherit { axis: 0, directions: vec![Direction::Upward] });
         let mut diagram = Drawing::new("bifurcation", DrawingKind::Bifurcation);
-        diagram.x = Some(axis.coordinate.name().to_owned());
+        diagram.x = Some(axis.name().to_owned());
+        let names: Vec<&str> = axis.coordinates().map(Coordinate::name).collect();
         let study = Study {
-            title: format!("Along {}", axis.coordinate.name()),
+            title: format!("Along {}", names.join(" and ")),
             base: self.first.parameters.clone(),
             start: self.first.start.clone().without_drift(),
             start_phase: self.first.start_phase,
             section_phase: self.first.section_phase,
-            case_set: CaseSet::Grid(Grid { axes: vec![axis.clone()], inherit }),
+            case_set: CaseSet::Grid(Grid { axes: vec![axis], inherit }),
             protocol: self.protocol,
             drawings: vec![diagram],
             ..Study::of(self.first.parameters.model())
@@ -116,9 +121,8 @@ impl Line {
     }
 
     /// What varies along it, if that is one coordinate alone.
-    pub fn axis(&self) -> Option<&Axis> {
-        let [axis] = &self.varied[..] else { return None };
-        Some(axis)
+    pub fn single(&self) -> Option<&Varying> {
+        if let [single] = &self.varied[..] { Some(single) } else { None }
     }
 
     /// The case at a place with the start of the request.
@@ -137,7 +141,7 @@ impl Line {
     /// the last where it takes too long.
     pub fn compute(self, send: &dyn Fn(String) -> bool) {
         let study = self.study();
-        let why = (self.varied.len() > 1).then_some(NO_STUDY);
+        let why = study.is_none().then_some(NO_STUDY);
         let head = json!({ "study": study.map(|it| it.text), "why": why });
         if send(head.to_string()) {
             match self.inherits {
@@ -195,7 +199,7 @@ fn varied(
     from: &[(Coordinate, f64)],
     to: &[(Coordinate, f64)],
     count: usize,
-) -> Result<Vec<Axis>, Refusal> {
+) -> Result<Vec<Varying>, Refusal> {
     let mut varied = Vec::new();
     for &(coordinate, to) in to {
         let Some(&(_, from)) = from.iter().find(|it| it.0 == coordinate) else {
@@ -204,7 +208,7 @@ fn varied(
         };
         if from != to {
             let values = spacing(asked, coordinate, [from, to])?.values(from, to, count);
-            varied.push(Axis { coordinate, values });
+            varied.push(Varying { coordinate, values });
         }
     }
     match varied.is_empty() {

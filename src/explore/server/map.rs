@@ -12,7 +12,7 @@ use crate::figure::{
     ColouredMap, MapAxis, MapColours, MapLine, MapPoint, TradeOffAxis, coloured_map, over_map,
     over_map_variables, trade_off_cells,
 };
-use crate::study::{Drawing, DrawingKind, Sweep, free_name};
+use crate::study::{Axis, Drawing, DrawingKind, Sweep, free_name};
 
 /// The parameters of a request for a map or for its figure, beside the axes.
 const KNOWN: [&str; 7] = ["of", "x", "y", "sweep", "curves", "kind", "format"];
@@ -21,7 +21,7 @@ const KNOWN: [&str; 7] = ["of", "x", "y", "sweep", "curves", "kind", "format"];
 pub fn drawing(explored: &Explored, asked: &Asked, kind: DrawingKind) -> Result<Drawing, Refusal> {
     asked.only(explored.model(), &KNOWN)?;
     let [x, y, of] = ["x", "y", "of"].map(|name| asked.text(name).map(str::to_owned));
-    let axes: Vec<&str> = explored.study.axes().iter().map(|it| it.coordinate.name()).collect();
+    let axes: Vec<&str> = explored.study.axes().iter().map(Axis::name).collect();
     let mut at = BTreeMap::new();
     for (coordinate, value) in asked.coordinates(explored.model())? {
         match coordinate.name() {

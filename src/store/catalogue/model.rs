@@ -1,7 +1,8 @@
 //! The entries of parameters, starts and outputs, whose names the floors below give.
 
 use super::cases::{HISTORY_TIME, IMPACT_POINT, POINT};
-use super::entry::{Entry, Extent};
+use super::entry::{Entry, Extent, Type};
+use super::lasting::lasting;
 use super::tables::{EDGE_CYCLE, EDGE_INDEX};
 use crate::description::{Description, Output, Parameter, Source};
 use crate::quantity::Quantity;
@@ -11,6 +12,18 @@ impl Entry {
     /// A parameter of the model, as an axis or a constant of the study.
     pub fn of_parameter(parameter: impl Into<Parameter>) -> Entry {
         Entry::of_coordinate(Coordinate::Parameter(parameter.into()))
+    }
+
+    /// The places of a path of the study, by its name.
+    pub fn of_path(name: &str) -> Entry {
+        Entry {
+            name: lasting(name.to_owned()),
+            unit: "1",
+            meaning: "place along the path, counted from 0",
+            extent: Extent::Dimension,
+            numbers: Type::Whole,
+            shown: None,
+        }
     }
 
     /// What an axis can vary, as an axis or a constant of the study.

@@ -7,6 +7,7 @@ use super::branches::{
     BRANCH_CYCLE, BRANCH_POINT, CODIM2_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT,
 };
 use super::entry::{Entry, Extent};
+use super::lasting::lasting;
 use super::model::{derived, edges, end, histories, impacts, neutral, section};
 use super::ramps::{RAMP_INDEX, RAMP_POINT, ramp_outputs};
 use super::tables::{ATTRACTOR_CYCLE, ATTRACTOR_INDEX, EVENT};
@@ -140,18 +141,6 @@ impl Place {
         }
         columns
     }
-}
-
-/// A text that is put together, and lives as long as the program: each is kept once.
-pub fn lasting(text: String) -> &'static str {
-    static TEXTS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
-    let mut texts = TEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(known) = texts.get(&*text) {
-        return known;
-    }
-    let text: &'static str = text.leak();
-    texts.insert(text);
-    text
 }
 
 /// Every entry of the results of a model: of the study, of its cases, and of the tables beside them.

@@ -151,6 +151,8 @@ entries! {
         "attractor of the event";
     EVENT_PERIOD "event_period" "1" Table(EVENT.name), Whole, None,
         "period of the orbit that changes, in cycles";
+    EVENT_PLACE "event_place" "1" Table(EVENT.name), Real, None,
+        "place along the path, counted from 0, with the share of the way to the next";
     EVENT_UNCERTAINTY "event_uncertainty" "" Table(EVENT.name), Real, None,
         "how far the true value may be";
 

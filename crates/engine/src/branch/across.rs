@@ -2,6 +2,7 @@
 
 use crate::flow::{Stroboscopic, Switched, System};
 use crate::lane::{Lane, Mask};
+use crate::orbit::Varied;
 use crate::orbit::return_map::{Cycles, returned};
 
 use super::arclength::{CurvePoint, Equations, dot, norm, unit};
@@ -77,8 +78,8 @@ pub struct Unknowns<'a, M: System<D>, const D: usize, const U: usize> {
     pub family: &'a Family<M, D>,
     /// Units of the unknowns.
     pub units: &'a [f64; U],
-    /// The parameters.
-    pub free: &'a [M::Parameter],
+    /// What the parameters among them vary, in turn.
+    pub free: &'a [Varied<M::Parameter>],
 }
 
 /// The first solution beyond the instant of the section, where the curve reaches it with an event that moves the
@@ -95,7 +96,8 @@ pub fn across_section<M: System<D>, E: Equations<U>, const D: usize, const U: us
     let Unknowns { family, units, free } = unknowns;
     let seeded = seeded(&last.at, units);
     let point = std::array::from_fn(|i| seeded[i]);
-    let free: Vec<_> = free.iter().enumerate().map(|(i, it)| (*it, seeded[D + i])).collect();
+    let free = free.iter().enumerate().flat_map(|(i, it)| it.at(seeded[D + i]));
+    let free: Vec<_> = free.collect();
     let Across { point, time } = family.across(point, &free)?;
     let (mut at, mut ahead) = (last.at, last.tangent);
     let mut jump: f64 = 0.0;

@@ -11,6 +11,7 @@ use super::periodic::{Goal, Periodic, passes};
 use super::step_control::{Advance, Bounds, StepControl};
 use super::{Codim2, Codim2Kind, Curve, End, Request, Special, SpecialKind};
 use crate::flow::System;
+use crate::orbit::Varied;
 
 /// A curve begins at its special point to within this, relative to each unknown.
 const AT_SPECIAL: f64 = 1e-9;
@@ -288,7 +289,8 @@ impl<'l, M: System<D>, const D: usize, const W: usize> Direction<'l, M, D, W> {
     /// Adds the point beyond the instant of the section, where no step leads on and the section point jumps there.
     fn beyond_section(&mut self) -> Option<End> {
         let Locus { family, units, free, .. } = self.locus;
-        let unknowns = Unknowns { family, units, free };
+        let free = free.map(Varied::One);
+        let unknowns = Unknowns { family, units, free: &free };
         let beyond = across_section(self.locus, &unknowns, &self.control, &self.last);
         let (next, at_bound) = match beyond {
             Some(Advance::Inside(next)) => (next, false),

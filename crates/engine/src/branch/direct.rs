@@ -58,7 +58,7 @@ pub fn linearised<M: System<D>, const D: usize>(
     value: f64,
     points: &[[f64; D]],
 ) -> Option<Linearised<M::Event, D>> {
-    if M::Single::AUTONOMOUS || !along.system.has(along.parameter) {
+    if M::Single::AUTONOMOUS || !along.varied.is_had(&along.system) {
         return None;
     }
     let metric = along.system.metric();
@@ -70,7 +70,7 @@ pub fn linearised<M: System<D>, const D: usize>(
     for (i, point) in points.iter().enumerate() {
         let followed = integrator.passage(ReturnRequest {
             system: along.system.clone(),
-            along: Some((along.parameter, value, 1.0)),
+            along: Some((along.varied.clone(), value, 1.0)),
             point: *point,
             units: [1.0; D],
             cycles: Cycles { count: 1, tolerance: along.tolerance },
@@ -124,7 +124,7 @@ pub fn leads_to<M: System<D>, const D: usize>(
     to: &Linearised<M::Event, D>,
 ) -> bool {
     let range = [from.value.min(to.value), from.value.max(to.value)];
-    let units = units(&along.system, along.parameter, range, &from.points);
+    let units = units(&along.system, &along.varied, range, &from.points);
     let step = Step { from, to, units };
     from.points.len() == to.points.len()
         && from.events == to.events

@@ -15,9 +15,9 @@ use super::{
     SpecialKind,
 };
 use crate::flow::{Event, System};
-use crate::orbit::measured;
 use crate::orbit::neutral::may_be_neutral;
 use crate::orbit::passage::OneByOne;
+use crate::orbit::{Varied, measured};
 
 /// Cycles after which Newton's method is tried again from where the motion then is.
 const APPROACH: u64 = 4;
@@ -151,7 +151,7 @@ fn first_orbit<M: System<D>, const D: usize, const U: usize>(
     let mut orbits = Orbits {
         family,
         integrator: &OneByOne,
-        along: *along,
+        along: Varied::One(*along),
         units: measured_by(request, &[request.section]),
         oriented: false,
         exact: EXACT,
@@ -198,7 +198,7 @@ fn measured_by<M: System<D>, const D: usize, const U: usize>(
     points: &[[f64; D]],
 ) -> [f64; U] {
     let Request { system, along, range, .. } = request;
-    let section = units(system, *along, *range, points);
+    let section = units(system, &Varied::One(*along), *range, points);
     let width = range[1] - range[0];
     std::array::from_fn(|i| *section.get(i).unwrap_or(&width))
 }
@@ -291,7 +291,7 @@ fn point<M: System<D>, const D: usize, const U: usize>(
     let parameter = orbits.parameter(&point.at);
     let from = orbits.section(&point.at);
     let multipliers = point.seen.multipliers();
-    let system = system.with(orbits.along, parameter);
+    let system = orbits.along.of(system, parameter);
     let orbit = measured(&system, from, (*period, multipliers), *tolerance).ok();
     let section = orbit.as_ref().map_or_else(|| vec![from], |orbit| orbit.section.clone());
     let residual = orbit.as_ref().map_or(f64::NAN, |orbit| orbit.residual);

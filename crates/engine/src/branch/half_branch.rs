@@ -146,7 +146,8 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         {
             return Some(Onward::Turns(last.clone(), advance.clone()));
         }
-        let (family, units, free) = (&orbits.family, &orbits.units, &[orbits.along][..]);
+        let (family, units) = (&orbits.family, &orbits.units);
+        let free = std::slice::from_ref(&orbits.along);
         match across_section(orbits, &Unknowns { family, units, free }, control, last) {
             Some(Advance::Inside(next)) => {
                 self.points.push(next);

@@ -2,6 +2,7 @@
 
 use crate::flow::{Event, Reason, Switched, System};
 use crate::lane::Dual;
+use crate::orbit::Varied;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 use crate::orbit::passage::{Integrator, Passage, PlainRequest, ReturnRequest};
 use crate::orbit::return_map::Cycles;
@@ -21,8 +22,8 @@ pub struct Orbits<'a, M: System<D>, const D: usize, const U: usize> {
     pub family: Family<M, D>,
     /// What follows them with derivatives.
     pub integrator: &'a dyn Integrator<M, D>,
-    /// The parameter that varies.
-    pub along: M::Parameter,
+    /// What varies.
+    pub along: Varied<M::Parameter>,
     /// Units of the coordinates and of the parameter.
     pub units: [f64; U],
     /// Whether an orbit belongs to the branch of another only if the determinant of J - I and the direction in the
@@ -121,7 +122,7 @@ impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
         }
         let Family { system, period, tolerance } = &self.family;
         let again = self.integrator.plain_returns(PlainRequest {
-            system: system.with(self.along, self.parameter(at)),
+            system: self.along.of(system, self.parameter(at)),
             points: vec![passage.end],
             cycles: Cycles { count: *period, tolerance: *tolerance },
         });
@@ -133,7 +134,7 @@ impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
         if !M::Single::AUTONOMOUS {
             return false;
         }
-        let free = [(self.along, self.parameter(&point.at))];
+        let free = self.along.at(self.parameter(&point.at));
         let longest = self.family.longest_cycle(self.section(&point.at), &free);
         longest.is_none_or(|longest| longest > LONGEST)
     }
@@ -152,7 +153,7 @@ impl<M: System<D>, const D: usize, const U: usize> Periodic<D, U> for Orbits<'_,
 
     fn displacement(&self, at: &[f64; U]) -> Option<[f64; D]> {
         let section = self.section(at);
-        let passage = self.family.passage(section, &[(self.along, self.parameter(at))]).ok()?;
+        let passage = self.family.passage(section, &self.along.at(self.parameter(at))).ok()?;
         let moved = self.family.system.metric().difference(&passage.end, &section);
         Some(std::array::from_fn(|i| moved[i] / self.units[i]))
     }
@@ -166,14 +167,14 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<'_, M
     }
 
     fn at(&self, at: &[f64; U]) -> Result<Linear<U, Self::Seen>, Reason> {
-        if !self.family.system.admits(self.along, self.parameter(at)) {
+        if !self.along.admits(&self.family.system, self.parameter(at)) {
             return Err(Reason::NotFinite);
         }
         let Family { system, period, tolerance } = &self.family;
         let point = self.section(at);
         let passage = self.integrator.passage(ReturnRequest {
             system: system.clone(),
-            along: Some((self.along, self.parameter(at), self.units[D])),
+            along: Some((self.along.clone(), self.parameter(at), self.units[D])),
             point,
             units: std::array::from_fn(|i| self.units[i]),
             cycles: Cycles { count: *period, tolerance: *tolerance },

@@ -2,6 +2,7 @@
 
 use crate::flow::System;
 use crate::lane::Dual;
+use crate::orbit::Varied;
 
 /// Units of the coordinates of the section.
 ///
@@ -9,12 +10,12 @@ use crate::lane::Dual;
 /// the system expects of its motion at the ends of the range.
 pub fn units<M: System<D>, const D: usize>(
     system: &M,
-    along: M::Parameter,
+    along: &Varied<M::Parameter>,
     range: [f64; 2],
     first: &[[f64; D]],
 ) -> [f64; D] {
     let metric = system.metric();
-    let expected = range.map(|value| system.with(along, value).expected_size());
+    let expected = range.map(|value| along.of(system, value).expected_size());
     let sizes = first.iter().map(|point| metric.size(point));
     let size = sizes.chain(expected).filter(|size| size.is_finite()).fold(0.0, f64::max);
     let size = if size > 0.0 { size } else { 1.0 };

@@ -2,19 +2,20 @@
 
 use super::SpecialKind;
 use crate::flow::{Metric, System};
+use crate::orbit::Varied;
 use crate::orbit::matrix::Complex;
 
 /// Values of the parameter closer together than this, relative to them and for each cycle of the period, are one
 /// value: each cycle adds its rounding to the orbit's.
 pub const ONE_VALUE: f64 = 2e-13;
 
-/// What is held while one parameter varies.
+/// What is held while one parameter varies, or several in step.
 #[derive(Debug, Clone)]
 pub struct Along<M: System<D>, const D: usize> {
     /// The system with the values of the other parameters.
     pub system: M,
-    /// The parameter that varies.
-    pub parameter: M::Parameter,
+    /// What varies; what is called the value of the parameter is the number of this.
+    pub varied: Varied<M::Parameter>,
     /// Relative local error of a step of the integrator.
     pub tolerance: f64,
 }
@@ -22,7 +23,7 @@ pub struct Along<M: System<D>, const D: usize> {
 impl<M: System<D>, const D: usize> Along<M, D> {
     /// How far two section points are apart at a value of the parameter.
     pub fn metric(&self, value: f64) -> Metric<D> {
-        self.system.with(self.parameter, value).metric()
+        self.varied.of(&self.system, value).metric()
     }
 }
 

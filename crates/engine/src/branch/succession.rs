@@ -54,7 +54,7 @@ fn segment_of<M: System<D>, const D: usize>(
     to: f64,
     changes: usize,
 ) -> Option<Segment<[f64; D]>> {
-    if !along.system.has(along.parameter) {
+    if !along.varied.is_had(&along.system) {
         return None;
     }
     let limited = Limited::to(CYCLES, integrator);
@@ -107,15 +107,15 @@ fn walk_from<'a, M: System<D>, const D: usize, const U: usize>(
     to: f64,
     sought: Sought,
 ) -> Option<Walk<'a, M, D, U>> {
-    let Along { system, parameter, tolerance } = along;
+    let Along { system, varied, tolerance } = along;
     let (value, points) = from;
     let family =
         Family { system: system.clone(), period: points.len() as u64, tolerance: *tolerance };
     let range = [value.min(to), value.max(to)];
     let width = range[1] - range[0];
-    let section = units(system, *parameter, range, points);
+    let section = units(system, varied, range, points);
     let units: [f64; U] = std::array::from_fn(|i| *section.get(i).unwrap_or(&width));
-    let along = *parameter;
+    let along = varied.clone();
     let orbits =
         Orbits { family, integrator: limited, along, units, oriented: true, exact: ROUNDING };
     let mut walk = Walk { orbits, from: value, to, sought, limited };

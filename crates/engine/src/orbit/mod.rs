@@ -37,6 +37,7 @@ pub mod spectrum;
 pub mod side_by_side;
 pub mod trajectory;
 mod underway;
+mod varied;
 pub mod aperiodic;
 
 pub use batch::Batch;
@@ -55,3 +56,4 @@ pub use side_by_side::{Queue, settle_side_by_side};
 pub use spectrum::Spectrum;
 pub use trajectory::{Failure, Trajectory};
 pub use underway::Underway;
+pub use varied::{InStep, Varied};

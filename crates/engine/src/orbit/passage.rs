@@ -10,14 +10,15 @@ use super::extrema::{Extremum, SignChanges, Turns, nearest};
 use super::matrix::Matrix;
 use super::measuring::{MeasureRequest, Measured, measured_alone};
 use super::return_map::{Cycles, Image, returned};
+use super::varied::Varied;
 
 /// A return that is asked for.
 #[derive(Debug, Clone)]
 pub struct ReturnRequest<M: System<D>, const D: usize> {
     /// The system with the parameters that are held.
     pub system: M,
-    /// The parameter that varies, with its value and its unit.
-    pub along: Option<(M::Parameter, f64, f64)>,
+    /// What varies, with its number and the unit of that.
+    pub along: Option<(Varied<M::Parameter>, f64, f64)>,
     /// The section point.
     pub point: [f64; D],
     /// Units of its coordinates.
@@ -236,18 +237,15 @@ pub(super) fn value_at<L: Lane>(series: &Series<L>, time: f64) -> L {
 impl<M: System<D>, const D: usize> ReturnRequest<M, D> {
     /// The value of a parameter.
     pub(super) fn value(&self, parameter: M::Parameter) -> f64 {
-        match self.along {
-            Some((along, value, _)) if along == parameter => value,
-            _ => self.system.value(parameter),
-        }
+        let varied = self.along.as_ref();
+        let given = varied.and_then(|(along, number, _)| along.value(parameter, *number));
+        given.unwrap_or_else(|| self.system.value(parameter))
     }
 
-    /// The derivative of a parameter along the one that varies.
+    /// The derivative of a parameter along the number that varies.
     pub(super) fn seed(&self, parameter: M::Parameter) -> f64 {
-        match self.along {
-            Some((along, _, unit)) if along == parameter => unit,
-            _ => 0.0,
-        }
+        let varied = self.along.as_ref();
+        varied.and_then(|(along, _, unit)| Some(along.slope(parameter)? * unit)).unwrap_or(0.0)
     }
 
     /// The derivative of a coordinate of the section point along a direction at the start.

@@ -3,8 +3,8 @@
 use capsulemap_engine::attractor::coincide;
 use capsulemap_engine::branch::{Along, Linearised, SegmentEnd, leads_to, linearised, segment};
 use capsulemap_engine::lane::Instructions;
-use capsulemap_engine::orbit::Protocol;
 use capsulemap_engine::orbit::passage::OneByOne;
+use capsulemap_engine::orbit::{Protocol, Varied};
 use capsulemap_models::capsule::{
     CapsuleCase as _, CapsuleState as _, Case, Filippov, Orbit, Parameter, Resistance, State,
 };
@@ -52,7 +52,8 @@ fn a_branch_that_is_said_to_lead_straight_on_does() {
                 continue;
             }
             let system = case.read::<Filippov>().system;
-            let along = Along { system, parameter, tolerance: protocol.tolerance };
+            let along =
+                Along { system, varied: Varied::One(parameter), tolerance: protocol.tolerance };
             let values = [case.parameters[parameter], next[i].parameters[parameter]];
             // Of zero every share is zero.
             if values[0] == values[1] {

@@ -8,7 +8,7 @@ use capsulemap_engine::flow::{Field, NoEvent, Reason, Stroboscopic, Switched, Sy
 use capsulemap_engine::lane::elementary::{not_finite, sin_cos};
 use capsulemap_engine::lane::{Instructions, Lane, ORDER, Series, series};
 use capsulemap_engine::orbit::passage::OneByOne;
-use capsulemap_engine::orbit::{Case, Machine, Outcome, Protocol, settle, settle_all};
+use capsulemap_engine::orbit::{Case, Machine, Outcome, Protocol, Varied, settle, settle_all};
 use capsulemap_engine::{in_lanes, own_system};
 
 /// x'' + c x' + x = f cos(w t) with a guard that no motion meets, unless it is no number.
@@ -162,7 +162,7 @@ fn a_parameter_that_a_system_does_not_have_is_an_error() {
     }
     assert!(SOUND.has("w") && !SOUND.has("omega"));
     let known = |parameter| {
-        let along = Along { system: SOUND, parameter, tolerance: 1e-12 };
+        let along = Along { system: SOUND, varied: Varied::One(parameter), tolerance: 1e-12 };
         let points = &orbit.section[..1];
         [
             segment(&OneByOne, &along, (1.5, points), 1.55).is_some(),

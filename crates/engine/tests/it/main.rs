@@ -27,6 +27,7 @@ mod family_values;
 mod far_starts;
 mod forms;
 mod impact_orbits;
+mod in_step;
 mod invariants;
 mod lanes;
 mod library_faults;

@@ -2,6 +2,7 @@
 
 use capsulemap_engine::flow::{Motion, System};
 use capsulemap_engine::lane::Instructions;
+use capsulemap_engine::orbit::Varied;
 use capsulemap_engine::orbit::measuring::{MeasureRequest, Measured};
 use capsulemap_engine::orbit::measuring_all::measured_side_by_side;
 use capsulemap_engine::orbit::passage::{Integrator, OneByOne, ReturnRequest};
@@ -83,7 +84,7 @@ fn so_do_their_derivatives_along_a_parameter() {
                 let of = random.uniform(0.0, Parameter::ALL.len() as f64);
                 let parameter = Parameter::ALL[of as usize];
                 let value = request.system.parameters[parameter];
-                request.along = Some((parameter, value, 0.3));
+                request.along = Some((Varied::One(parameter), value, 0.3));
                 request
             };
             compare(&cases.iter().map(along).collect::<Vec<_>>());

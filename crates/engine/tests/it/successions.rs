@@ -7,11 +7,11 @@ use std::env;
 use capsulemap_engine::branch::{Along, End, SegmentEnd, SpecialKind, SpecialValue, succession};
 use capsulemap_engine::flow::{Reason, System};
 use capsulemap_engine::lane::Instructions;
-use capsulemap_engine::orbit::Protocol;
 use capsulemap_engine::orbit::measuring::{MeasureRequest, Measured};
 use capsulemap_engine::orbit::passage::{
     Integrator, OneByOne, Passage, PlainRequest, PlainReturns, ReturnRequest,
 };
+use capsulemap_engine::orbit::{Protocol, Varied};
 use capsulemap_models::capsule::branch::{Request, follow};
 
 use super::direct_links::points;
@@ -65,7 +65,7 @@ fn attractors_are_followed_for_so_many_cycles_and_tell_no_special_point_that_is_
             continue;
         }
         let system = case.read::<Filippov>().system;
-        let along = Along { system, parameter, tolerance: protocol.tolerance };
+        let along = Along { system, varied: Varied::One(parameter), tolerance: protocol.tolerance };
         let counting = Counting::default();
         let about = format!("{case:?} along {parameter:?} to {to:?}");
         let found = succession(&counting, &along, (from, &points(orbit)), to).expect(&about);

@@ -85,8 +85,8 @@ fn table_of<const D: usize>(table: &Table<Section>) -> Arc<Table<[f64; D]>> {
 
 /// What is held along a parameter, for the engine.
 fn along<M: Face<D>, const D: usize>(it: &Along) -> branch::Along<M, D> {
-    let (parameter, tolerance) = (M::which(it.parameter), it.tolerance);
-    branch::Along { system: system(&it.setting), parameter, tolerance }
+    let (varied, tolerance) = (it.varied.map(M::which), it.tolerance);
+    branch::Along { system: system(&it.setting), varied, tolerance }
 }
 
 /// Two neighbouring cells, for the engine.

@@ -21,7 +21,7 @@ use super::{lanes, maps, orbits, steps};
 pub mod belt;
 #[path = "../../../examples/duffing.rs"]
 #[allow(dead_code)]
-mod duffing;
+pub mod duffing;
 #[path = "../../../examples/relief_valve.rs"]
 #[allow(dead_code)]
 mod relief_valve;
