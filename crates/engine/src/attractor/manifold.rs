@@ -41,8 +41,8 @@ pub enum CurveEnd {
     Meets,
     /// It has as many points as one may have, or all have as many as they may have together.
     Length,
-    /// What begins there comes near the saddle after more cycles than are followed.
-    Cycles,
+    /// Motions from there do not come near the saddle within the cycles that are followed.
+    Far,
     /// No next point is found, not by derivatives and not by the attractors of starts around: other basins are near.
     Lost,
 }
@@ -54,7 +54,7 @@ impl CurveEnd {
         CurveEnd::Closed,
         CurveEnd::Meets,
         CurveEnd::Length,
-        CurveEnd::Cycles,
+        CurveEnd::Far,
         CurveEnd::Lost,
     ];
 
@@ -65,7 +65,7 @@ impl CurveEnd {
             CurveEnd::Closed => "closed",
             CurveEnd::Meets => "other_curve",
             CurveEnd::Length => "length",
-            CurveEnd::Cycles => "cycles",
+            CurveEnd::Far => "far",
             CurveEnd::Lost => "lost",
         }
     }
@@ -174,17 +174,4 @@ pub struct Manifolds<P> {
     pub unstable: Vec<UnstableBranch<P>>,
     /// How much of the boundary the stable ones make up.
     pub coverage: Coverage,
-}
-
-impl<P> Manifolds<P> {
-    /// The same with section points held in another way.
-    pub fn map<Q>(self, held: impl Fn(P) -> Q) -> Manifolds<Q> {
-        let Manifolds { saddles, stable, unstable, coverage } = self;
-        Manifolds {
-            saddles: saddles.into_iter().map(|it| it.map(&held)).collect(),
-            stable,
-            unstable: unstable.into_iter().map(|it| it.map(&held)).collect(),
-            coverage,
-        }
-    }
 }

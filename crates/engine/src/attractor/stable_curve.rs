@@ -10,7 +10,7 @@ const LONGEST: f64 = 0.02;
 /// The first step.
 const FIRST: f64 = 1e-3;
 /// The shortest step by derivatives: where it fails, the curve has a corner or ends.
-const SHORTEST: f64 = 1e-6;
+const SHORTEST: f64 = 1e-5;
 /// The chord is so far from the curve at most, by its turn, and the step is chosen for half as far.
 const CHORD: f64 = 2e-4;
 /// The curve turns by so much in a step at most [rad].
@@ -27,7 +27,10 @@ const ACROSS: f64 = 0.05;
 const MOST_POINTS: usize = 4000;
 const MOST_DIVIDED: usize = 400;
 /// The radii of the circles on which the next point is sought by division, the sides of the plane being one.
-const RADII: [f64; 4] = [4e-3, 1e-3, 2e-4, 4e-5];
+const RADII: [f64; 5] = [1.6e-2, 4e-3, 1e-3, 2e-4, 4e-5];
+/// A curve is given up where so many steps in a row are shorter than this: it is wound up too narrowly.
+const SHORT_STEPS: usize = 60;
+const SHORT: f64 = 1e-4;
 /// A curve begins to be able to close after so many points.
 const CAN_CLOSE: usize = 8;
 /// Motions are followed so many periods of the saddle longer than those of the point before.
@@ -65,8 +68,8 @@ pub(super) struct Follower<'a, const D: usize> {
 /// A step that fails.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Failed {
-    /// The motions come near the saddle too late.
-    Cycles,
+    /// The motions do not come near the saddle.
+    Far,
     /// For another reason.
     Other,
 }
@@ -124,10 +127,11 @@ impl<const D: usize> Follower<'_, D> {
     /// One half of the curve from its first point on.
     fn half(&self, first: CurvePoint) -> (Vec<CurvePoint>, CurveEnd) {
         let mut points = vec![first];
-        let (mut step, mut divided) = (FIRST, 0);
+        let (mut step, mut divided, mut short) = (FIRST, 0, 0);
         loop {
             let last = points[points.len() - 1];
-            if points.len() >= MOST_POINTS.min(self.most) || divided > MOST_DIVIDED {
+            let is_full = points.len() >= MOST_POINTS.min(self.most) || divided > MOST_DIVIDED;
+            if is_full || self.plane.is_spent() {
                 return (points, CurveEnd::Length);
             }
             let mut next = Err(Failed::Other);
@@ -137,13 +141,18 @@ impl<const D: usize> Follower<'_, D> {
             let next = next.or_else(|failed| {
                 step = FIRST;
                 divided += 1;
-                self.divided(&last).ok_or(failed)
+                let found = self.divided(&last);
+                found.or_else(|| self.divided(&along_chord(&points)?)).ok_or(failed)
             });
             let point = match next {
                 Ok(point) => point,
-                Err(Failed::Cycles) => return (points, CurveEnd::Cycles),
+                Err(Failed::Far) => return (points, CurveEnd::Far),
                 Err(Failed::Other) => return (points, CurveEnd::Lost),
             };
+            short = if distance(&last.at, &point.at) < SHORT { short + 1 } else { 0 };
+            if short > SHORT_STEPS {
+                return (points, CurveEnd::Lost);
+            }
             if points.len() > CAN_CLOSE && passes(&last, &point, &first.at, &first.tangent) {
                 points.push(first);
                 return (points, CurveEnd::Closed);
@@ -231,7 +240,7 @@ impl<const D: usize> Follower<'_, D> {
         for _ in 0..CORRECTIONS {
             let at = [0, 1].map(|side| start[side] + shift * line[side]);
             let approach = self.plane.approach(saddle, &at, within).map_err(|why| match why {
-                NoApproach::Far => Failed::Cycles,
+                NoApproach::Far => Failed::Far,
                 NoApproach::Broken => Failed::Other,
             })?;
             let [x, y] = approach.gradient;
@@ -276,6 +285,7 @@ impl<const D: usize> Follower<'_, D> {
             if let Ok(point) = found
                 && is_inside(&point.at)
                 && point.tangent[0] * chord[0] + point.tangent[1] * chord[1] > 0.0
+                && length * angle(&last.tangent, &point.tangent) / 4.0 <= CHORD
             {
                 return Some(point);
             }
@@ -303,6 +313,15 @@ impl<const D: usize> Follower<'_, D> {
         to[along] = (at[along] + within * left.signum()).clamp(0.0, 1.0);
         Ahead::Line { from, to }.crossing(self.plane, self.sides)
     }
+}
+
+/// The last point of a curve that goes on as its last chord does, not as derivatives say: those of a start that the system moves at
+/// once, as one beyond a rigid stop, are not those of the map.
+fn along_chord(points: &[CurvePoint]) -> Option<CurvePoint> {
+    let [.., before, last] = points else { return None };
+    let length = distance(&before.at, &last.at);
+    let tangent = [0, 1].map(|side| (last.at[side] - before.at[side]) / length);
+    (length > 0.0).then_some(CurvePoint { tangent, ..*last })
 }
 
 /// How far two starts are apart.
@@ -348,10 +367,10 @@ fn is_on_border(at: &[f64; 2]) -> bool {
 /// Where the way from a start inside to one beyond leaves the plane, and across which side's ends.
 fn border_between(from: &[f64; 2], to: &[f64; 2]) -> ([f64; 2], usize) {
     let mut least = (1.0, 0);
-    for side in 0..2 {
+    for side in (0..2).filter(|side| !(0.0..=1.0).contains(&to[*side])) {
         let end = if to[side] > from[side] { 1.0 } else { 0.0 };
         let share = (end - from[side]) / (to[side] - from[side]);
-        if share < least.0 {
+        if share <= least.0 {
             least = (share, side);
         }
     }

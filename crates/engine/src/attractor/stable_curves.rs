@@ -1,5 +1,7 @@
 //! The stable manifolds that make up the boundary of basins in a plane of starts, one curve after the other.
 
+use std::cell::Cell;
+
 use super::boundary_cover::{BoundaryCover, Pair};
 use super::crossing::Crossing;
 use super::edge::{Met, Saddle};
@@ -10,8 +12,8 @@ use super::start_plane::StartPlane;
 use super::unstable_branch::UnstableSearch;
 
 /// Curves at most, and points of all of them together.
-const MOST_CURVES: usize = 400;
-const MOST_POINTS: usize = 60_000;
+const MOST_CURVES: usize = 300;
+const MOST_POINTS: usize = 40_000;
 /// The search stops after so many pairs of starts from which no curve is found.
 const MOST_FAILED: usize = 48;
 /// Two starts on the two sides are brought this close together before derivatives are tried, and then closer, the distance of the
@@ -64,7 +66,7 @@ impl<const D: usize> ManifoldSearch<'_, D> {
     /// division lie between starts that lead to the two attractors. Breaks: where the boundary is fractal there is no end of curves,
     /// and the search stops; where the map is torn, the boundary is no manifold of a saddle and is followed by division.
     pub fn manifolds(&self, known: &[Saddle<[f64; D]>]) -> Manifolds<[f64; D]> {
-        let plane = StartPlane { map: &self.map, plane: self.plane };
+        let plane = StartPlane { map: &self.map, plane: self.plane, cycles: Cell::new(0) };
         let mut search = Search {
             search: self,
             plane,
@@ -120,7 +122,7 @@ impl<const D: usize> Search<'_, D> {
                 continue;
             }
             let is_full = self.curves.len() >= MOST_CURVES || self.points >= MOST_POINTS;
-            if is_full || coverage.failed >= MOST_FAILED {
+            if is_full || coverage.failed >= MOST_FAILED || self.plane.is_spent() {
                 coverage.stopped = true;
                 break;
             }
@@ -143,7 +145,7 @@ impl<const D: usize> Search<'_, D> {
         let last = points.len() - 1;
         let ends = [[points[0], points[1]], [points[last], points[last - 1]]];
         for (end, [at, before]) in curve.ends.into_iter().zip(ends) {
-            if matches!(end, CurveEnd::Cycles | CurveEnd::Lost | CurveEnd::Length) {
+            if matches!(end, CurveEnd::Far | CurveEnd::Lost | CurveEnd::Length) {
                 let length = libm::hypot(at[0] - before[0], at[1] - before[1]);
                 self.open.push((at, [0, 1].map(|side| (at[side] - before[side]) / length)));
             }

@@ -1,5 +1,7 @@
 //! A plane of starts whose sides are one, and the value in it that is zero on the stable manifold of a saddle.
 
+use std::cell::Cell;
+
 use super::manifold::{Plane, SectionMap};
 use super::saddle_frame::{SaddleFrame, applied, product_of};
 
@@ -9,8 +11,15 @@ const NEAR: f64 = 0.05;
 const LEFT: f64 = 4.0;
 /// Cycles that a motion is followed until it is near the saddle.
 const MOST_CYCLES: usize = 500;
+/// Cycles for which it is worth to follow all curves together.
+const MOST_WORK: u64 = 6_000_000;
+/// Cycles that a start is followed until it is known where it leads, about, and that one with derivatives is worth.
+const PER_START: u64 = 30;
+const PER_IMAGE: u64 = 5;
 /// Differences grow by this factor at most: beyond, nothing but rounding is left of them.
 const GROWTH: f64 = 1e13;
+/// A motion has settled where they have become smaller by this factor: it comes to no saddle any more.
+const SETTLED: f64 = 1e-7;
 
 /// A plane of starts in coordinates along which its sides are one.
 pub(super) struct StartPlane<'a, const D: usize> {
@@ -18,6 +27,8 @@ pub(super) struct StartPlane<'a, const D: usize> {
     pub map: &'a SectionMap<'a, D>,
     /// The plane.
     pub plane: &'a Plane<[f64; D]>,
+    /// Cycles that have been followed so far, about: those with derivatives count as several.
+    pub cycles: Cell<u64>,
 }
 
 /// How a motion comes near a saddle.
@@ -55,7 +66,17 @@ impl<const D: usize> StartPlane<'_, D> {
     /// What starts lead to.
     pub fn leads(&self, starts: &[[f64; 2]]) -> Vec<Option<u32>> {
         let points: Vec<[f64; D]> = starts.iter().map(|at| self.point(at)).collect();
+        self.count(PER_START * starts.len() as u64);
         (self.map.leads)(&points)
+    }
+
+    /// Whether as many cycles have been followed as may be.
+    pub fn is_spent(&self) -> bool {
+        self.cycles.get() >= MOST_WORK
+    }
+
+    fn count(&self, cycles: u64) {
+        self.cycles.set(self.cycles.get() + cycles);
     }
 
     /// The size of the plane [units of the metric].
@@ -84,6 +105,7 @@ impl<const D: usize> StartPlane<'_, D> {
             direction[self.plane.places[side]] = self.plane.side(side);
             direction
         });
+        let first = along.iter().map(|it| map.metric.length(it)).fold(0.0, f64::max);
         let mut best: Option<Approach> = None;
         for cycles in 0..=MOST_CYCLES {
             let (place, distance) = saddle.nearest(map, &point);
@@ -99,11 +121,13 @@ impl<const D: usize> StartPlane<'_, D> {
                     best = Some(Approach { value, gradient, error, cycles });
                 }
             }
+            let largest = along.iter().map(|it| map.metric.length(it)).fold(0.0, f64::max);
+            let is_settled = largest < SETTLED * first;
             let has_left = best.is_some() && relative > LEFT * NEAR;
-            let grown = along.iter().map(|it| map.metric.length(it)).fold(0.0, f64::max);
-            if (has_left && cycles >= within) || grown > GROWTH * saddle.size {
+            if (has_left && cycles >= within) || is_settled || largest > GROWTH * first {
                 break;
             }
+            self.count(PER_IMAGE);
             let Some(image) = (map.image)(&point) else {
                 return best.ok_or(NoApproach::Broken);
             };

@@ -20,8 +20,8 @@ const SHORTEST: f64 = 1e-9;
 /// A branch has come to an attractor where it has been so near to its points for a whole period, relative to the motion.
 const REACHES: f64 = 1e-3;
 /// The length of a branch at most, relative to the motion, and its points.
-const MOST_LENGTH: f64 = 60.0;
-const MOST_POINTS: usize = 6000;
+const MOST_LENGTH: f64 = 30.0;
+const MOST_POINTS: usize = 4000;
 /// Images of the segment at most.
 const MOST_IMAGES: f64 = 300.0;
 
