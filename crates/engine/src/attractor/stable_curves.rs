@@ -60,11 +60,14 @@ impl<const D: usize> ManifoldSearch<'_, D> {
     /// together on the boundary. From there the zero of g(x) = w (P^n(x) - s) is followed, P the return map, s the section point of
     /// the saddle to which the motion comes near, w the left eigenvector of its multiplier beyond 1, and n the number of cycles for
     /// which the error of second order is least. The saddle is one that is known, or is sought there.
-    /// Source: zero level of the unstable coordinate under a power of the map (Krauskopf et al., Int. J. Bifurcation Chaos 15, 2005,
-    /// compare methods for manifolds); step control by turn and chord as Hobson, J. Comput. Phys. 104, 1993.
-    /// Assumes: one multiplier beyond 1, which is positive. Guarantees: points by derivatives satisfy g = 0 to rounding, points by
-    /// division lie between starts that lead to the two attractors. Breaks: where the boundary is fractal there is no end of curves,
-    /// and the search stops; where the map is torn, the boundary is no manifold of a saddle and is followed by division.
+    /// Source: the level set of the unstable coordinate under a power of the map is the definition of the stable manifold; step
+    /// control by turn and chord, and images of a fundamental segment for the unstable one, after D. Hobson, J. Comput. Phys. 104,
+    /// 1993. A survey of other methods: B. Krauskopf et al., Int. J. Bifurcation Chaos 15, 2005.
+    /// Assumes: one multiplier beyond 1 in magnitude, which is positive.
+    /// Guarantees: points by derivatives have g = 0 to rounding; points by division lie between starts that lead to the two
+    /// attractors.
+    /// Breaks: where the boundary is fractal there is no end of curves, and the search stops; where the map is torn, the boundary is
+    /// no manifold of a saddle and is followed by division alone.
     pub fn manifolds(&self, known: &[Saddle<[f64; D]>]) -> Manifolds<[f64; D]> {
         let plane = StartPlane { map: &self.map, plane: self.plane, cycles: Cell::new(0) };
         let mut search = Search {

@@ -30,6 +30,7 @@ mod impact_orbits;
 mod invariants;
 mod lanes;
 mod library_faults;
+mod manifolds;
 mod neighbourhoods;
 mod neutral;
 mod observers;

@@ -122,7 +122,8 @@ impl<const D: usize> Bent<D> {
 
     /// The manifolds in a plane of the first two coordinates, of a grid of starts.
     fn manifolds(&self, origin: [f64; D], most: f64) -> Manifolds<[f64; D]> {
-        let values: Vec<f64> = (0..41).map(|place| most * (f64::from(place) / 20.0 - 1.0)).collect();
+        let values: Vec<f64> =
+            (0..41).map(|place| most * (f64::from(place) / 20.0 - 1.0)).collect();
         let plane = Plane { origin, places: [0, 1], values: [values.clone(), values.clone()] };
         let starts = values.iter().flat_map(|x| values.iter().map(move |y| (*x, *y)));
         let lead = |(x, y): (f64, f64)| {
@@ -131,14 +132,20 @@ impl<const D: usize> Bent<D> {
             self.leads(&point)
         };
         let attractors: Vec<Option<u32>> = starts.map(lead).collect();
-        let (image, next) =
-            (|point: &[f64; D]| Some(self.image(point)), |point: &[f64; D]| Some(self.image(point).end));
+        let (image, next) = (
+            |point: &[f64; D]| Some(self.image(point)),
+            |point: &[f64; D]| Some(self.image(point).end),
+        );
         let leads = |points: &[[f64; D]]| points.iter().map(|point| self.leads(point)).collect();
-        let saddle = |_: [[f64; D]; 2]| {
-            (!self.jumps).then(|| Met { sides: [0, 1], saddle: self.saddle() })
-        };
+        let saddle =
+            |_: [[f64; D]; 2]| (!self.jumps).then(|| Met { sides: [0, 1], saddle: self.saddle() });
         let search = ManifoldSearch {
-            map: SectionMap { metric: Metric::new([1.0; D]), image: &image, next: &next, leads: &leads },
+            map: SectionMap {
+                metric: Metric::new([1.0; D]),
+                image: &image,
+                next: &next,
+                leads: &leads,
+            },
             saddle: &saddle,
             plane: &plane,
             attractors: &attractors,
@@ -242,13 +249,16 @@ fn the_unstable_manifold_is_the_bent_segment_to_both_attractors() {
             for point in &branch.points {
                 let straight = bent.straight(point).0;
                 assert!((straight[1] - second).abs() < 1e-9, "{straight:?}");
-                assert!(straight[0].abs() <= 1.0 && straight[0] * (f64::from(branch.side) - 0.5) >= 0.0);
+                assert!(
+                    straight[0].abs() <= 1.0 && straight[0] * (f64::from(branch.side) - 0.5) >= 0.0
+                );
             }
             let reached = bent.straight(&branch.points[branch.points.len() - 1]).0[0];
             assert!((reached.abs() - 1.0).abs() < 0.01, "{reached}");
-            let near = branch.points.windows(2).all(|pair| {
-                (0..2).all(|i| (pair[0][i] - pair[1][i]).abs() < 0.1)
-            });
+            let near = branch
+                .points
+                .windows(2)
+                .all(|pair| (0..2).all(|i| (pair[0][i] - pair[1][i]).abs() < 0.1));
             assert!(near);
         }
     }
