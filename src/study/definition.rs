@@ -42,6 +42,8 @@ pub struct Study {
     /// What tells neighbouring cases apart where a grid is computed only between cases that differ, see [`Refinement`]; the
     /// others are inferred.
     pub refine: Option<Refine>,
+    /// Whether the manifolds of the saddles between basins are followed, see [`run::manifolds`](crate::run::manifolds).
+    pub manifolds: bool,
     /// The outputs to keep.
     pub outputs: Vec<Output>,
     /// The branches of periodic orbits to continue.
@@ -54,6 +56,8 @@ pub struct Study {
 
 /// A study without ramps as it is shown: left out of fingerprints, which stay those of studies before there were ramps.
 const NO_RAMPS: &str = ", ramps: []";
+/// One without manifolds, which stays that of studies before there were any.
+const NO_MANIFOLDS: &str = ", manifolds: false";
 
 impl Default for Study {
     /// That of the model where none is named, see [`Study::of`].
@@ -77,6 +81,7 @@ impl Study {
             protocol: Protocol::default(),
             early_decision: true,
             refine: None,
+            manifolds: false,
             outputs: usual_outputs(&Parameters::of(model), &Protocol::default()),
             branches: Vec::new(),
             ramps: Vec::new(),
@@ -142,7 +147,7 @@ impl Study {
         };
         let mut hasher = SipHasher13::new();
         // Numbers are shown with all the digits that distinguish them.
-        let shown = format!("{computed:?}").replace(NO_RAMPS, "");
+        let shown = format!("{computed:?}").replace(NO_RAMPS, "").replace(NO_MANIFOLDS, "");
         shown.hash(&mut hasher);
         if let Some(equations) = self.base.model().equations {
             equations.tables.hash(&mut hasher);

@@ -60,7 +60,7 @@ fn read_study(top: &Table<'_, '_>) -> Study {
         read_parameters(top, &case_set.varied());
     let start = read_start(top, &mut case_set);
     let protocol = read_protocol(top);
-    let basin = read_basin(top, &case_set);
+    let basin = read_basin(top, &case_set, &start);
     let outputs = read_outputs(top, &with_parts(&base, &case_set.varied()), &protocol);
     let refine = read_map(top, &case_set, &outputs).or(basin.refine.then_some(Refine::Attractors));
     let surroundings = Surroundings { case_set: &case_set, base: &base, start: start.clone() };
@@ -89,6 +89,7 @@ fn read_study(top: &Table<'_, '_>) -> Study {
         early_decision: basin.early_decision,
         drawings: read_drawings(top, &case_set, &varied_beside, &outputs, refine.as_ref()),
         refine,
+        manifolds: basin.manifolds,
         outputs,
         branches,
         ramps,
