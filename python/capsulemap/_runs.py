@@ -171,6 +171,7 @@ def basin(
     draws: Draws | int | None = None,
     refine: bool = False,
     early_decision: bool = True,
+    manifolds: bool = False,
     protocol: Mapping[str, object] | None = None,
     title: str = "",
     keep: Keep = None,
@@ -189,6 +190,7 @@ def basin(
     draws: Draws | int | None = None,
     refine: bool = False,
     early_decision: bool = True,
+    manifolds: bool = False,
     protocol: Mapping[str, object] | None = None,
     title: str = "",
     keep: Keep = None,
@@ -206,6 +208,7 @@ def basin(
     draws: Draws | int | None = None,
     refine: bool = False,
     early_decision: bool = True,
+    manifolds: bool = False,
     protocol: Mapping[str, object] | None = None,
     title: str = "",
     keep: Keep = None,
@@ -216,11 +219,14 @@ def basin(
 
     ``axes`` are as those of a sweep, of "start_r", "start_y1" and the like. ``attractor`` numbers the motion of each start, and
     variables over ``attractor_index`` tell of each motion: its period, multipliers, outputs and share of the starts. With ``refine``
-    only starts beside the boundaries are computed. Returns and raises as ``sweep`` does.
+    only starts beside the boundaries are computed. With ``manifolds`` the boundary is followed as curves, the variables over
+    ``stable_point``, and the unstable manifolds of its saddles, those over ``unstable_point``. Returns and raises as ``sweep`` does.
     """
     keys: dict[str, object] = {} if early_decision else {"early_decision": False}
     if refine:
         keys["refine"] = True
+    if manifolds:
+        keys["manifolds"] = True
     built = Built(
         system,
         axes,

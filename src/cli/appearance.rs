@@ -32,7 +32,7 @@ pub struct Appearance {
     #[arg(long, requires = "kind", allow_negative_numbers = true)]
     dpi: Option<f64>,
     /// Marks to leave out, of those that the kind of figure has: gap, stroboscopic, impacts, contact, drive, coexistence,
-    /// events, special-points, section-points, saddles, impact-surface, fronts, optima.
+    /// events, special-points, section-points, saddles, manifolds, impact-surface, fronts, optima.
     #[arg(long, value_delimiter = ',', requires = "kind")]
     hide: Vec<String>,
     /// Words that stand in the figure where the quantities along both axes have these values.

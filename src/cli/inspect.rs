@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use super::asked_density::densities;
 use super::failure::Failure;
 use super::terminal::{print, print_as_it_is};
-use super::{attractor_list, basin_list};
+use super::{attractor_list, basin_list, manifold_list};
 use crate::campaign::{WeightedShares, settling_times, weighted_shares};
 use crate::run::{SettledWithin, SettlingTimes};
 use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
@@ -132,6 +132,7 @@ fn describe(dataset: &Dataset, basins: &Basins) -> Value {
         "variables": variables,
         "attractors": attractor_list::attractors(dataset),
         "saddles": attractor_list::saddles(dataset),
+        "manifolds": manifold_list::manifolds(dataset),
         "wada": basin_list::wada(dataset),
         "settling": basins.settling.as_ref().map(|it| basin_list::settling(&it.times, it.inferred, &it.within)),
         "weighted": basins.weighted.as_ref().map(basin_list::weighted),
@@ -180,6 +181,7 @@ fn notify(dataset: &Dataset, basins: &Basins) -> String {
         let _ = writeln!(text, "outcomes: {}", counts.join(", "));
     }
     text.push_str(&attractor_list::tables(dataset));
+    text.push_str(&manifold_list::manifolds_text(dataset));
     text.push_str(&basin_list::wada_text(dataset));
     if let Some(Settling { times, inferred, within }) = &basins.settling {
         text.push_str(&basin_list::settling_text(times, *inferred, within));

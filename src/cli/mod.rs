@@ -27,6 +27,7 @@ mod identify;
 mod identify_report;
 mod inspect;
 mod join;
+mod manifold_list;
 mod new;
 mod optima_csv;
 mod optima_json;

@@ -11,6 +11,7 @@ use super::header::{self, Header, Mark};
 use super::inferred;
 use super::kind::{Kind, Names, Needs};
 use super::known_attractors::{self, KnownAttractors};
+use super::manifolds::{self, Curves};
 use super::motion::Motion;
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
@@ -44,6 +45,7 @@ fn reads(_: &Drawing, model: &'static Description) -> Names {
         .and(known_attractors::READS)
         .and_all(section_points::reads(model))
         .and(edges(model))
+        .and_all(manifolds::reads(model))
         .and(inferred::READS)
         .and([Place::Attractor.of(Entry::of_output(model.main_output()))])
         .and(model.parameters().map(Entry::of_parameter))
@@ -79,6 +81,8 @@ struct Basins<'a> {
     points: Vec<SectionPoint>,
     /// The section points of saddles.
     saddles: Vec<(f64, f64)>,
+    /// Their manifolds.
+    curves: Curves,
     /// The ends of the lines where the mass reaches its stops.
     surfaces: Vec<[(f64, f64); 2]>,
 }
@@ -112,6 +116,7 @@ impl<'a> Basins<'a> {
                 false => Vec::new(),
             },
             saddles: if view.shows("saddles") { saddles(view, &plane) } else { Vec::new() },
+            curves: if view.shows("manifolds") { Curves::of(view, &plane) } else { Curves::none() },
             surfaces: match view.shows("impact-surface") {
                 true => surfaces(view, &plane),
                 false => Vec::new(),
@@ -171,6 +176,7 @@ impl<'a> Basins<'a> {
             let words = Text::plain(&format!("saddles on the boundary{more}"));
             legend.push((Mark::Ring(INK, RADIUS), words));
         }
+        legend.extend(self.curves.legend());
         if !self.surfaces.is_empty() {
             let several = if self.surfaces.len() > 1 { "s" } else { "" };
             let words = Text::plain(&format!("impact surface{several}"));
@@ -186,6 +192,7 @@ impl<'a> Basins<'a> {
         for ends in &self.surfaces {
             panel.curve(canvas, ends, SURFACE);
         }
+        self.curves.draw(canvas, panel);
         draw_saddles(canvas, panel, &self.saddles);
         draw_section_points(canvas, panel, &self.points);
         panel.record(canvas, "saddles on the boundary", self.saddles.iter().copied());
@@ -196,8 +203,8 @@ impl<'a> Basins<'a> {
         let about = view.about(&[ATTRACTOR.name.to_owned()], &self.plane.names());
         let attractors = self.present().into_iter().map(|number| self.attractors.told(number));
         let saddles = (!self.saddles.is_empty()).then(|| "saddles on the boundary".to_owned());
-        let told: Vec<String> =
-            attractors.chain(self.inferred.iter().cloned()).chain(saddles).collect();
+        let beside = self.inferred.iter().cloned().chain(saddles).chain(self.curves.about());
+        let told: Vec<String> = attractors.chain(beside).collect();
         format!("{about}: {}", told.join("; "))
     }
 

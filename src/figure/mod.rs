@@ -33,6 +33,7 @@ mod history;
 mod inferred;
 mod kind;
 mod known_attractors;
+mod manifolds;
 mod map;
 mod mark;
 mod measured;

@@ -3,13 +3,14 @@
 use super::cases::run_sample;
 use super::edge::{Edge, edges};
 use super::inferred_sample::{InferredSample, check_starts};
+use super::manifold::manifolds;
 use super::room::Room;
 use super::settling::{Settling, SettlingTimes};
 use super::shock::shocks;
 use super::{Attractors, FinalMotions, Machine, Record, RunError, SharesAt, shares_along};
 use crate::attractor::{
-    Attractor, Entropy, Integrity, Label, Share, Uncertainty, Wada, entropy, shares_of_draws,
-    shares_of_grid, uncertainty, wada,
+    Attractor, Entropy, Integrity, Label, Manifolds, Share, Uncertainty, Wada, entropy,
+    shares_of_draws, shares_of_grid, uncertainty, wada,
 };
 use crate::description::Section;
 use crate::model::Setting;
@@ -50,6 +51,8 @@ pub struct AttractorTable {
     pub settling: Option<SettlingTimes>,
     /// The saddles between the basins of a grid.
     pub edges: Vec<Edge>,
+    /// Their manifolds, where the study asks for them; some of the saddles are met by these alone.
+    pub manifolds: Option<Manifolds<Section>>,
     /// How well the starts of a refined grid are inferred that have not been computed.
     pub inferred: Option<InferredSample>,
 }
@@ -108,10 +111,21 @@ pub fn attractor_table(
     let entropy = measured.then(|| entropy(&shape, label, BOX)).flatten();
     let uncertainty = measured.then(|| uncertainty(&shape, label)).flatten();
     let wada = measured.then(|| wada(&shape, label, rows.len())).flatten();
-    let edges = edges(study, attractors, machine);
+    let mut edges = edges(study, attractors, machine);
+    let manifolds = manifolds(study, attractors, &mut edges, machine);
     let inferred = check_starts(study, attractors, final_motions, machine)?;
     let settling = None;
-    Ok(AttractorTable { rows, along: None, entropy, uncertainty, wada, settling, edges, inferred })
+    Ok(AttractorTable {
+        rows,
+        along: None,
+        entropy,
+        uncertainty,
+        wada,
+        settling,
+        edges,
+        manifolds,
+        inferred,
+    })
 }
 
 /// The shares of so many attractors of draws. The cases of a row of a design have values in common, so that their shares have no

@@ -16,7 +16,7 @@ use super::catalogue::{
     SETTLED_NEVER, SETTLED_SHARE, SETTLED_STEP, edges as edge_entries, section,
 };
 use super::columns::Columns;
-use super::{Dataset, Values, boundary};
+use super::{Dataset, Values, boundary, manifolds};
 use crate::attractor::{Entropy, Integrity};
 use crate::description::{Description, Section};
 use crate::orbit::Outcome;
@@ -52,6 +52,9 @@ pub fn add_attractors(
     add_measures(dataset, table);
     if !table.edges.is_empty() {
         add_edges(dataset, &table.edges);
+    }
+    if let Some(found) = &table.manifolds {
+        manifolds::add(dataset, study, found);
     }
     if let (Some(along), Some(axis)) = (&table.along, attractors.axis) {
         add_shares(dataset, study.axes()[axis].name(), along);

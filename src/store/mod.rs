@@ -28,6 +28,7 @@ mod join;
 mod joined;
 mod line_file;
 mod lock;
+mod manifolds;
 mod names;
 mod one_case;
 mod own_layout;

@@ -118,6 +118,15 @@ pub struct Varying {
     pub values: Vec<f64>,
 }
 
+impl Varying {
+    /// Whether there are several values, which all rise or all fall.
+    pub fn is_ordered(&self) -> bool {
+        let pairs = || self.values.windows(2);
+        let (rise, fall) = (pairs().all(|it| it[0] < it[1]), pairs().all(|it| it[0] > it[1]));
+        self.values.len() > 1 && (rise || fall)
+    }
+}
+
 /// One axis of a grid: a coordinate, or a path, along which several vary together.
 #[derive(Clone, PartialEq)]
 pub struct Axis {

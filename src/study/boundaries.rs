@@ -1,6 +1,6 @@
 //! The boundaries between the regions of a map that a study asks for, to be followed as curves.
 
-use super::{Axis, Coordinate, Grid, Varying};
+use super::{Axis, Coordinate, Grid};
 use crate::description::Parameter;
 
 /// How the boundaries of a map are followed.
@@ -24,16 +24,9 @@ pub fn parameters_of_map(grid: &Grid) -> Option<[Parameter; 2]> {
 
 /// The parameter that alone varies along an axis, if its values rise or fall.
 fn parameter_along(axis: &Axis) -> Option<Parameter> {
-    let Varying { coordinate, values } = axis.single()?;
-    match coordinate {
-        Coordinate::Parameter(parameter) if spans(values) => Some(*parameter),
+    let varying = axis.single().filter(|it| it.is_ordered())?;
+    match varying.coordinate {
+        Coordinate::Parameter(parameter) => Some(parameter),
         _ => None,
     }
-}
-
-/// Whether there are several values, all rising or all falling.
-fn spans(values: &[f64]) -> bool {
-    let rises = values.windows(2).all(|pair| pair[0] < pair[1]);
-    let falls = values.windows(2).all(|pair| pair[0] > pair[1]);
-    values.len() > 1 && (rises || falls)
 }

@@ -20,6 +20,7 @@ impl Study {
             protocol,
             early_decision,
             refine,
+            manifolds,
             outputs,
             branches,
             ramps,
@@ -39,6 +40,7 @@ impl Study {
         let refined_by =
             if let Some(Refine::Outputs(_)) = refine { "map.refine" } else { "basin.refine" };
         compared.part(refined_by, refine, &read.refine);
+        compared.part("basin.manifolds", manifolds, &read.manifolds);
         compared.each("branches", branches, &read.branches);
         compared.each("ramps", ramps, &read.ramps);
         compared.part("map.boundaries", boundaries, &read.boundaries);

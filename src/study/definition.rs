@@ -42,6 +42,8 @@ pub struct Study {
     /// What tells neighbouring cases apart where a grid is computed only between cases that differ, see [`Refinement`]; the
     /// others are inferred.
     pub refine: Option<Refine>,
+    /// Whether the manifolds of the saddles between basins are followed, see [`run::manifolds`](crate::run::manifolds).
+    pub manifolds: bool,
     /// The outputs to keep.
     pub outputs: Vec<Output>,
     /// The branches of periodic orbits to continue.
@@ -54,8 +56,8 @@ pub struct Study {
     pub drawings: Vec<Drawing>,
 }
 
-/// A study without ramps and boundaries as it is shown: left out of fingerprints, which stay those of studies before there were any.
-const NONE_BESIDE: &str = ", ramps: [], boundaries: None";
+/// What a study does not ask for, as it is shown: left out of fingerprints, which stay those of studies before it could be asked for.
+const NOT_ASKED: [&str; 2] = [", manifolds: false", ", ramps: [], boundaries: None"];
 
 impl Default for Study {
     /// That of the model where none is named, see [`Study::of`].
@@ -79,6 +81,7 @@ impl Study {
             protocol: Protocol::default(),
             early_decision: true,
             refine: None,
+            manifolds: false,
             outputs: usual_outputs(&Parameters::of(model), &Protocol::default()),
             branches: Vec::new(),
             ramps: Vec::new(),
@@ -146,7 +149,8 @@ impl Study {
         };
         let mut hasher = SipHasher13::new();
         // Numbers are shown with all the digits that distinguish them.
-        let shown = format!("{computed:?}").replace(NONE_BESIDE, "");
+        let shown =
+            NOT_ASKED.iter().fold(format!("{computed:?}"), |shown, part| shown.replace(part, ""));
         shown.hash(&mut hasher);
         if let Some(equations) = self.base.model().equations {
             equations.tables.hash(&mut hasher);

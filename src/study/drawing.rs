@@ -124,7 +124,7 @@ kinds! {
     /// One output over two axes.
     Map "map" Keys { outputs: true, others: &[Shows::Verdicts], most: 1, panels: true, ..AXES };
     /// Which attractor each start leads to, over two coordinates of the start.
-    Basin "basin" Keys { marks: &["section-points", "saddles", "impact-surface"], ..AXES };
+    Basin "basin" Keys { marks: &["section-points", "saddles", "manifolds", "impact-surface"], ..AXES };
     /// For how many cycles each start is followed until its attractor is decided, over two coordinates of the start.
     Settling "settling" Keys { marks: &["section-points"], ..AXES };
     /// Shares of the starts that lead to each attractor, along a parameter, and the room of each basin.

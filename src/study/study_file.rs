@@ -61,7 +61,7 @@ fn read_study(top: &Table<'_, '_>) -> Study {
         read_parameters(top, &case_set.varied());
     let start = read_start(top, &mut case_set);
     let protocol = read_protocol(top);
-    let basin = read_basin(top, &case_set);
+    let basin = read_basin(top, &case_set, &start);
     let outputs = read_outputs(top, &with_parts(&base, &case_set.varied()), &protocol);
     let map = read_map(top, &case_set, &outputs);
     let refine = map.refine.or(basin.refine.then_some(Refine::Attractors));
@@ -91,6 +91,7 @@ fn read_study(top: &Table<'_, '_>) -> Study {
         early_decision: basin.early_decision,
         drawings: read_drawings(top, &case_set, &varied_beside, &outputs, refine.as_ref()),
         refine,
+        manifolds: basin.manifolds,
         outputs,
         branches,
         ramps,

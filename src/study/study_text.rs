@@ -296,6 +296,9 @@ fn write_basin(document: &mut Document, study: &Study) {
         document.put("early_decision", study.early_decision);
         if let CaseSet::Grid(_) = study.case_set {
             document.put("refine", study.refine.is_some());
+            if study.manifolds {
+                document.put("manifolds", true);
+            }
         }
     }
     let refine = study.refine.as_ref().filter(|it| matches!(it, Refine::Outputs(_)));

@@ -4,7 +4,9 @@ use std::any::Any;
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
-use capsulemap_engine::attractor::{Attractor, Bridge, Executor, FinalMotion, Links, Met, Table};
+use capsulemap_engine::attractor::{
+    Attractor, Bridge, Executor, FinalMotion, Links, Manifolds, Met, Plane, Saddle, Table,
+};
 use capsulemap_engine::branch::{NotFollowed, Segment};
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::matrix::Complex;
@@ -125,6 +127,16 @@ pub trait Leads {
     /// The saddle on a boundary between two section points that lead to different attractors, see
     /// [`EdgeSearch`](capsulemap_engine::attractor::EdgeSearch).
     fn saddle(&self, points: [Section; 2]) -> Option<Met<Section>>;
+
+    /// The curves on which basins meet in a plane of starts, each of whose starts leads to one of the `attractors` by its number,
+    /// the first side of the plane the slower, and the unstable manifolds of their saddles, of which some are known; see
+    /// [`ManifoldSearch`](capsulemap_engine::attractor::ManifoldSearch).
+    fn manifolds(
+        &self,
+        plane: &Plane<Section>,
+        attractors: &[Option<u32>],
+        known: &[Saddle<Section>],
+    ) -> Manifolds<Section>;
 
     /// The size of the smallest disturbance at the points of an attractor that leads to another known one [units of the metric],
     /// sought first towards a section point; none where none is found, see

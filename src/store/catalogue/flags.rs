@@ -1,6 +1,7 @@
 //! The names of the categories, and the numbers that stand for them.
 
 use super::entry::Flags;
+use crate::attractor::{BranchEnd, CurveEnd};
 use crate::branch::{Codim2Kind, End, SpecialKind};
 use crate::description::Description;
 use crate::flow::Reason;
@@ -37,6 +38,16 @@ pub fn proofs() -> Flags {
 /// The directions in which a start can be inherited.
 pub fn directions() -> Flags {
     Direction::ALL.iter().map(|&it| (it as i64, it.name().to_owned())).collect()
+}
+
+/// Why a curve on which two basins meet ends.
+pub fn curve_ends() -> Flags {
+    CurveEnd::ALL.map(|end| (end as i64, end.name().to_owned())).to_vec()
+}
+
+/// Why a half of an unstable manifold ends.
+pub fn branch_ends() -> Flags {
+    BranchEnd::ALL.map(|end| (end as i64, end.name().to_owned())).to_vec()
 }
 
 /// What happens at a special point.

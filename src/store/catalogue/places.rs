@@ -8,10 +8,11 @@ use super::branches::{
 };
 use super::entry::{Entry, Extent};
 use super::lasting::lasting;
+use super::manifolds::{STABLE_POINT, UNSTABLE_POINT};
 use super::model::{derived, edges, end, histories, impacts, neutral, section};
 use super::ramps::{RAMP_INDEX, RAMP_POINT, ramp_outputs};
 use super::tables::{ATTRACTOR_CYCLE, ATTRACTOR_INDEX, EVENT};
-use super::{branches, cases, ramps, tables};
+use super::{branches, cases, manifolds, ramps, tables};
 use crate::description::Description;
 use crate::study::Coordinate;
 
@@ -36,10 +37,14 @@ pub enum Place {
     Ramp,
     /// Where the ramps begin.
     RampFirst,
+    /// The points of the curves on which basins meet.
+    Stable,
+    /// The points of the unstable manifolds of saddles.
+    Unstable,
 }
 
 impl Place {
-    const ALL: [Place; 9] = [
+    const ALL: [Place; 11] = [
         Place::Attractor,
         Place::Event,
         Place::Request,
@@ -49,6 +54,8 @@ impl Place {
         Place::Codim2,
         Place::Ramp,
         Place::RampFirst,
+        Place::Stable,
+        Place::Unstable,
     ];
 
     /// What the names of its columns begin with.
@@ -63,6 +70,8 @@ impl Place {
             Place::Codim2 => "codim2_",
             Place::Ramp => "ramp_",
             Place::RampFirst => "ramp_first_",
+            Place::Stable => "stable_",
+            Place::Unstable => "unstable_",
         }
     }
 
@@ -95,6 +104,8 @@ impl Place {
             (Place::Codim2, _) => Extent::Table(CODIM2_POINT.name),
             (Place::Ramp, _) => Extent::Table(RAMP_POINT.name),
             (Place::RampFirst, _) => Extent::Table(RAMP_INDEX.name),
+            (Place::Stable, _) => Extent::Table(STABLE_POINT.name),
+            (Place::Unstable, _) => Extent::Table(UNSTABLE_POINT.name),
             (Place::Branch, Extent::CaseRow(_)) => {
                 Extent::TableRow(BRANCH_POINT.name, BRANCH_CYCLE.name)
             }
@@ -119,14 +130,17 @@ impl Place {
             Place::Codim2 => "point of codimension 2",
             Place::Ramp => "ramp",
             Place::RampFirst => "where the ramp begins",
+            Place::Stable => "curve on which two basins meet",
+            Place::Unstable => "unstable manifold",
         };
         self.column(entry, lasting(format!("{place}: {}", entry.meaning)))
     }
 
     /// All columns called after other variables of a model.
     fn columns(self, model: &'static Description) -> Vec<Entry> {
-        // All attractors of starts have the same parameters.
-        let parameters = self.parameters(model).filter(|_| self != Place::Attractor);
+        // All attractors of starts have the same parameters, and so has all that lies in the plane of the starts.
+        let of_one = matches!(self, Place::Attractor | Place::Stable | Place::Unstable);
+        let parameters = self.parameters(model).filter(|_| !of_one);
         let mut columns: Vec<Entry> = parameters.collect();
         let of_orbits = matches!(self, Place::Attractor | Place::Branch | Place::Special);
         if of_orbits || matches!(self, Place::Event | Place::Codim2 | Place::Ramp) {
@@ -136,12 +150,23 @@ impl Place {
             let outputs = model.outputs().map(Entry::of_output);
             columns.extend(outputs.map(|entry| self.of(entry)));
         }
+        if self == Place::Unstable {
+            columns.extend(section(model).into_iter().map(|entry| self.of(entry)));
+        }
+        if self == Place::Stable {
+            columns
+                .extend(Coordinate::of_section(model).map(|it| self.of(Entry::of_coordinate(it))));
+        }
         if self == Place::Ramp {
             columns.extend(ramp_outputs(model).map(|output| self.of(Entry::of_output(output))));
         }
         columns
     }
 }
+
+/// The entries whose names stand in the files of this folder.
+const FIXED: [&[Entry]; 5] =
+    [cases::FIXED, tables::FIXED, branches::FIXED, ramps::FIXED, manifolds::FIXED];
 
 /// Every entry of the results of a model: of the study, of its cases, and of the tables beside them.
 pub fn all(model: &'static Description) -> &'static [Entry] {
@@ -163,7 +188,7 @@ pub fn all(model: &'static Description) -> &'static [Entry] {
 fn with_repeated(model: &'static Description) -> Vec<Entry> {
     let study = Coordinate::all(model).map(Entry::of_coordinate);
     let outputs = model.outputs().map(Entry::of_output);
-    let fixed = [cases::FIXED, tables::FIXED, branches::FIXED, ramps::FIXED].concat();
+    let fixed = FIXED.concat();
     let described =
         [section, neutral, impacts, histories, derived, end, edges].map(|of| of(model)).concat();
     let columns = Place::ALL.into_iter().flat_map(|place| place.columns(model));
@@ -180,8 +205,7 @@ pub fn taken_twice(model: &'static Description) -> BTreeSet<&'static str> {
 
 /// Whether a dimension of files is called so that is no axis of a study, whatever its model.
 pub fn is_dimension(name: &str) -> bool {
-    let mut fixed =
-        [cases::FIXED, tables::FIXED, branches::FIXED, ramps::FIXED].into_iter().flatten();
+    let mut fixed = FIXED.into_iter().flatten();
     fixed.any(|entry| entry.name == name && entry.extent == Extent::Dimension)
 }
 

@@ -31,6 +31,7 @@ mod in_step;
 mod invariants;
 mod lanes;
 mod library_faults;
+mod manifolds;
 mod neighbourhoods;
 mod neutral;
 mod observers;

@@ -2,9 +2,13 @@
 
 use std::sync::Arc;
 
-use capsulemap_engine::attractor::{self, EdgeSearch, FinalMotion, Met, minimal_critical_shock};
+use capsulemap_engine::attractor::{
+    self, EdgeSearch, FinalMotion, ManifoldSearch, Manifolds, Met, Plane, Saddle, SectionMap,
+    minimal_critical_shock,
+};
 use capsulemap_engine::flow::Stroboscopic;
-use capsulemap_engine::orbit::passage::OneByOne;
+use capsulemap_engine::orbit::passage::{OneByOne, image};
+use capsulemap_engine::orbit::return_map::{Cycles, returned};
 use capsulemap_engine::orbit::{
     self, KnownOrbits, Machine, Outcome, Protocol, settle_all, settle_all_near,
 };
@@ -55,6 +59,25 @@ impl<M: Face<D>, const D: usize> LeadsOf<M, D> {
         motions.map(|motion| self.number_of(&motion)).collect()
     }
 
+    /// The saddle on a boundary between two section points.
+    fn between(&self, points: [[f64; D]; 2]) -> Option<Met<[f64; D]>> {
+        let search = EdgeSearch {
+            system: &self.system,
+            protocol: &self.protocol,
+            integrator: &OneByOne,
+            leads: &|points| self.lead_to(points),
+        };
+        search.saddle(points)
+    }
+
+    /// A saddle with section points as the description has them.
+    fn told(&self, met: Met<[f64; D]>) -> Met<Section> {
+        let model = self.system.description();
+        let mut met = met.map(|point| model.section_point(&point));
+        met.saddle.multipliers.truncate(model.section.len());
+        met
+    }
+
     /// The attractor of a motion.
     fn number_of(&self, motion: &FinalMotion<[f64; D]>) -> Option<u32> {
         let found = Attractor::of(0, &self.system, motion, &self.protocol)?;
@@ -83,17 +106,46 @@ impl<M: Face<D>, const D: usize> Leads for LeadsOf<M, D> {
     }
 
     fn saddle(&self, points: [Section; 2]) -> Option<Met<Section>> {
-        let search = EdgeSearch {
-            system: &self.system,
-            protocol: &self.protocol,
-            integrator: &OneByOne,
-            leads: &|points| self.lead_to(points),
+        Some(self.told(self.between(points.map(|it| it.array()))?))
+    }
+
+    fn manifolds(
+        &self,
+        plane: &Plane<Section>,
+        attractors: &[Option<u32>],
+        known: &[Saddle<Section>],
+    ) -> Manifolds<Section> {
+        let Plane { origin, places, values } = plane.clone();
+        let single = self.system.single();
+        let cycle = Cycles { count: 1, tolerance: self.protocol.tolerance };
+        let of_known = self.known.iter().map(|(number, it)| (*number as usize, &it.points));
+        let count = of_known.clone().map(|(number, _)| number + 1).max().unwrap_or(0);
+        let mut points = vec![Vec::new(); count];
+        of_known.for_each(|(number, own)| points[number].clone_from(own));
+        let search = ManifoldSearch {
+            map: SectionMap {
+                metric: self.system.metric(),
+                image: &|point| image(&OneByOne, &self.system, point, &cycle).ok(),
+                next: &|point| returned(&single, *point, &cycle, |_| ()).ok(),
+                leads: &|points| self.lead_to(points),
+            },
+            saddle: &|points| self.between(points),
+            plane: &Plane { origin: origin.array(), places, values },
+            attractors,
+            points: &points,
         };
-        let met = search.saddle(points.map(|it| it.array()))?;
+        let known: Vec<_> = known.iter().map(|it| it.clone().map(|point| point.array())).collect();
         let model = self.system.description();
-        let mut met = met.map(|point| model.section_point(&point));
-        met.saddle.multipliers.truncate(model.section.len());
-        Some(met)
+        let Manifolds { saddles, stable, unstable, coverage } = search.manifolds(&known);
+        Manifolds {
+            saddles: saddles.into_iter().map(|it| self.told(it)).collect(),
+            stable,
+            unstable: unstable
+                .into_iter()
+                .map(|it| it.map(|point| model.section_point(&point)))
+                .collect(),
+            coverage,
+        }
     }
 
     fn shock(&self, number: u32, points: &[Section], towards: &Section) -> Option<f64> {
