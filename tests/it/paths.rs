@@ -387,3 +387,23 @@ fn the_text_of_a_path_keeps_its_form_and_its_bits() {
     assert_eq!(again.fingerprint(), study.fingerprint());
     assert_eq!(study.axes()[0].varying[1].values, [2.0; 7]);
 }
+
+#[test]
+fn the_study_of_the_document_is_one() {
+    let document = include_str!("../../docs/paths.md");
+    let text = document.split("```toml\n").nth(1).and_then(|it| it.split("```").next());
+    let study = Study::parse("study.toml", text.expect("a study")).expect("no fault");
+    assert_eq!(study.shape(), [81, 2]);
+    assert_eq!(study.dimensions(), ["line", "direction"]);
+    let places = format!(
+        "{}[[axes]]\nname = \"line\"\n{}\n",
+        CAPSULE,
+        document
+            .split("one for each place: `")
+            .nth(1)
+            .and_then(|it| it.split('`').next())
+            .map(|it| format!("values = {it}"))
+            .expect("a list")
+    );
+    assert_eq!(Study::parse("s.toml", &places).expect("no fault").shape(), [2]);
+}
