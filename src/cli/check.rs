@@ -11,7 +11,7 @@ use super::terminal::print;
 use crate::campaign::{is_system_alone, read_study, read_system};
 use crate::description::Description;
 use crate::quantity::printable::printable;
-use crate::study::Study;
+use crate::study::{Coordinate, Study};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -62,6 +62,11 @@ fn of_study(study: &Study) -> String {
     let shape: Vec<String> = study.shape().iter().map(ToString::to_string).collect();
     let cases = counted(study.cases(), "case");
     let _ = writeln!(text, "{:<12}{cases} ({})", "asks for", shape.join(" x "));
+    for path in study.axes().iter().filter(|axis| axis.path.is_some()) {
+        let along: Vec<&str> = path.coordinates().map(Coordinate::name).collect();
+        let places = counted(path.places(), "place");
+        line(&mut text, "path", &format!("{} of {places}: {}", path.name(), along.join(", ")));
+    }
     let outputs: Vec<&str> = study.outputs.iter().map(|it| it.name()).collect();
     line(&mut text, "outputs", &outputs.join(", "));
     for it in study.base.model().own_outputs() {

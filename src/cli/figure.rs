@@ -42,13 +42,13 @@ pub struct Figure {
     /// Outputs to draw; of a trade-off the cost, then the gain.
     #[arg(long, value_delimiter = ',', requires = "kind")]
     of: Vec<String>,
-    /// Axis along the abscissa.
+    /// Axis along the abscissa, or what varies along a path.
     #[arg(long, requires = "kind")]
     x: Option<String>,
-    /// Axis along the ordinate of a map.
+    /// Axis along the ordinate of a map, or what varies along a path.
     #[arg(long, requires = "kind")]
     y: Option<String>,
-    /// Where another axis is held, within its range; the nearest value is taken, and named. Maps, histories, phase portraits and
+    /// Where another axis is held, within its range; the nearest value is taken, and named. A path is held by what varies along it, or by its place, as "line=3". Maps, histories, phase portraits and
     /// spectra have a panel for each of several values, as "delta=1 mm,2 mm".
     #[arg(long, value_name = "AXIS=VALUE", requires = "kind")]
     at: Vec<String>,

@@ -98,6 +98,7 @@ impl View<'_> {
     /// The name of a direction in which starts were inherited, with the symbol of the axis that it goes along.
     fn direction_text(&self, name: &str) -> Text {
         match self.dataset.attributes.get(INHERITED_ALONG) {
+            Some(path) if self.is_by_places(path) => Text::plain(&format!("{name} in\u{a0}{path}")),
             Some(axis) => {
                 Text::plain(&format!("{name} in\u{a0}")).then(self.quantity(axis).short_name())
             }

@@ -3,16 +3,13 @@
 use std::collections::BTreeSet;
 
 use super::axis::Spacing;
+use super::axis_names::{MOST_VALUES, names, quantity};
 use super::document::{Entry, Table};
 use super::draws::{DrawKind, Range};
 use super::path_file::{is_path, read_path, refuse_drawn};
 use super::sobol_points::MOST_DIMENSIONS;
 use super::{Axis, CaseSet, Coordinate, Draws, Grid, Normal, Saltelli};
-use crate::description::Description;
 use crate::quantity::Allowed;
-
-/// More values on an axis, and more draws, than this are taken for a slip of the pen.
-pub(super) const MOST_VALUES: u64 = 10_000_000;
 
 /// A distribution that has less than this in its range is taken for a slip of the pen.
 const LEAST_PROBABILITY: f64 = 1e-9;
@@ -116,13 +113,6 @@ fn read_base_samples(table: &Table<'_, '_>, quantities: usize) -> Option<u64> {
     Some(rows)
 }
 
-/// What an axis of a study of a model may vary, by its names.
-pub(super) fn names(model: &'static Description) -> Vec<(&'static str, Coordinate)> {
-    let own = Coordinate::all(model).map(|coordinate| (coordinate.name(), coordinate));
-    let older = Coordinate::phases(model).take(1).map(|it| (Coordinate::PHASE, it));
-    own.chain(older).collect()
-}
-
 /// What varies along an axis.
 fn read_name(table: &Table<'_, '_>, name: Option<&Entry<'_, '_>>) -> Option<Coordinate> {
     let names = names(table.model());
@@ -136,12 +126,6 @@ fn read_name(table: &Table<'_, '_>, name: Option<&Entry<'_, '_>>) -> Option<Coor
         }
     }
     name?.one_of("axis", &names)
-}
-
-/// The value of an entry of an axis, if it is allowed.
-pub(super) fn quantity(entry: &Entry<'_, '_>, coordinate: Option<Coordinate>) -> Option<f64> {
-    let coordinate = coordinate?;
-    entry.allowed_quantity(coordinate.dimension(), coordinate.allowed())
 }
 
 /// The values of an axis of a grid.

@@ -3,6 +3,7 @@
 pub mod appearance;
 pub mod axis;
 mod axis_file;
+mod axis_names;
 pub mod block;
 pub mod boundaries;
 mod branch_file;

@@ -1,7 +1,7 @@
 //! A path in a study file: an axis along which several quantities vary together, by tables of their values.
 
 use super::axis::{Spacing, is_monotone};
-use super::axis_file::{MOST_VALUES, names, quantity};
+use super::axis_names::{MOST_VALUES, names, quantity};
 use super::document::{Entry, Table, unknown_of};
 use super::draws::Draws;
 use super::{Axis, Coordinate, Varying};

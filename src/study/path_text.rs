@@ -1,7 +1,6 @@
 //! A path as the text of a study file, with all digits and in SI units.
 
 use super::path_file::evenly;
-use super::study_text::are_same;
 use super::toml_text::{Document, inline, list, quantity, text};
 use super::{Axis, Spacing, Varying};
 
@@ -41,4 +40,9 @@ fn spacing(axis: &Axis) -> Option<Spacing> {
     [Spacing::Linear, Spacing::Logarithmic]
         .into_iter()
         .find(|spacing| axis.varying.iter().all(|it| makes(spacing, &it.values)))
+}
+
+/// Whether values are the same to the bit.
+pub(super) fn are_same(some: &[f64], others: &[f64]) -> bool {
+    some.iter().zip(others).all(|(a, b)| a.to_bits() == b.to_bits())
 }

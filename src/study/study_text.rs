@@ -5,7 +5,7 @@ use super::continuation::FirstOrbit;
 use super::drawing_text::write_drawing;
 use super::draws::Range;
 use super::own_outputs::written;
-use super::path_text::write_path;
+use super::path_text::{are_same, write_path};
 use super::toml_text::{Document, inline, list, number, plain_quantity, quantity, text};
 use super::{
     Axis, Boundaries, CaseSet, Continuation, Coordinate, Draws, Fault, Faults, Grid, Inherit,
@@ -231,11 +231,6 @@ fn spacing(values: &[f64]) -> Option<(f64, f64, Spacing)> {
         can_be && from != to && are_same(&spacing.values(from, to, values.len()), values)
     });
     found.map(|spacing| (from, to, spacing))
-}
-
-/// Whether values are the same to the bit.
-pub(super) fn are_same(some: &[f64], others: &[f64]) -> bool {
-    some.iter().zip(others).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
 fn write_draws(document: &mut Document, draws: &Draws) {

@@ -101,7 +101,7 @@ fn two_certified_attractors_coexist_between_two_folds() {
     let study = study(&window(150.0, 166.0, 33, BOTH_DIRECTIONS));
     let records = records(&study);
     let attractors = found(&study, &records);
-    for (at, omega) in study.axes()[0].values.iter().enumerate() {
+    for (at, omega) in study.axes()[0].varying[0].values.iter().enumerate() {
         let here = [attractors.of_case[2 * at], attractors.of_case[2 * at + 1]];
         let expected = match *omega {
             omega if omega < 151.018 => [Some(0); 2],
@@ -291,7 +291,7 @@ fn given_starts_and_both_directions_meet_in_one_study() {
     assert!(seen.into_iter().eq(0..study.cases()));
     let attractors = found(&study, &records(&study));
     for (at, here) in attractors.of_case.chunks(9).enumerate() {
-        let omega = study.axes()[0].values[at];
+        let omega = study.axes()[0].varying[0].values[at];
         let mut known: Vec<u32> = here.iter().map(|it| it.expect("an attractor")).collect();
         known.sort_unstable();
         known.dedup();

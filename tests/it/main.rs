@@ -74,6 +74,7 @@ mod own_models;
 mod own_outputs;
 mod outputs;
 mod panels;
+mod paths;
 mod phases;
 mod poincare;
 mod program;

@@ -55,10 +55,10 @@ impl Swept {
 
     /// The value of the axis that varies first, the period and the number of each periodic case.
     fn periodic(&self) -> impl Iterator<Item = (f64, u64, u32)> + '_ {
-        let each = self.records.len() / self.study.axes()[0].values.len();
+        let each = self.records.len() / self.study.axes()[0].varying[0].values.len();
         self.records.iter().enumerate().filter_map(move |(case, record)| {
             let number = self.attractors.of_case[case]?;
-            let value = self.study.axes()[0].values[case / each];
+            let value = self.study.axes()[0].varying[0].values[case / each];
             let Orbit { outcome, period, .. } = record.orbit;
             (outcome == Outcome::Periodic).then_some((value, period, number))
         })
@@ -143,7 +143,7 @@ impl Swept {
 
 /// A line of cases of a capsule in both directions.
 fn line(base: &Parameters, parameter: Parameter, values: Vec<f64>) -> Study {
-    let axis = Axis { coordinate: Coordinate::Parameter(parameter.into()), values };
+    let axis = Axis::of(Coordinate::Parameter(parameter.into()), values);
     let directions = vec![Direction::Upward, Direction::Downward];
     let grid = Grid { axes: vec![axis], inherit: Some(Inherit { axis: 0, directions }) };
     Study { base: base.clone(), case_set: CaseSet::Grid(grid), ..Study::default() }
@@ -187,7 +187,7 @@ fn no_number_passes_from_one_orbit_to_another_that_a_finer_axis_tells_apart() {
         let events = coarse.attractors.events.iter();
         unresolved += events.filter(|it| it.kind == SpecialKind::Unresolved).count();
         for (at, pair) in cells.windows(2).enumerate() {
-            let between = [at, at + 1].map(|it| coarse.study.axes()[0].values[it]);
+            let between = [at, at + 1].map(|it| coarse.study.axes()[0].varying[0].values[it]);
             for [here, finer_here] in &pair[0] {
                 for [next, finer_next] in &pair[1] {
                     let one = [here == next, finer_here == finer_next];

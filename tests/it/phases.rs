@@ -260,7 +260,7 @@ fn the_older_key_is_both_phases_and_the_older_axis_that_of_the_start() {
     let figure =
         "[[figures]]\nname = \"a\"\nkind = \"map\"\nx = \"phase\"\nat = { phase = \"1 rad\" }";
     let old = study(&(FIG5.to_owned() + &axis("phase") + figure));
-    assert_eq!(old.axes()[0].coordinate, Coordinate::StartPhase);
+    assert_eq!(old.axes()[0].varying[0].coordinate, Coordinate::StartPhase);
     assert_eq!(old.drawings[0].x.as_deref(), Some("start_phase"));
     assert!(old.drawings[0].at.contains_key("start_phase"));
     let new =

@@ -4,9 +4,9 @@ use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 use capsulemap::capsule::description::CAPSULE;
-use capsulemap::capsule::{CapsuleState as _, Parameter, Resistance, State};
+use capsulemap::capsule::{CapsuleState as _, Parameter, Parameters, Resistance, State};
 use capsulemap::orbit::Protocol;
-use capsulemap::study::{Axis, CaseSet, Coordinate, Grid, Spacing, Study};
+use capsulemap::study::{Axis, CaseSet, Coordinate, Grid, Spacing, Study, Varying};
 
 use super::draws::{self, ALONG, Random};
 use super::program::{Ran, WorkDir};
@@ -35,9 +35,8 @@ fn drawn(number: usize) -> (&'static str, Study) {
     if random.uniform(0.0, 1.0) < 0.2 {
         (base[Parameter::MuS], base[Parameter::MuD]) = (0.0, 0.0);
     }
-    let axis = |coordinate, from: f64, to: f64, points| Axis {
-        coordinate,
-        values: Spacing::Linear.values(from, to, points),
+    let axis = |coordinate, from: f64, to: f64, points| {
+        Axis::of(coordinate, Spacing::Linear.values(from, to, points))
     };
     let [r, y1] = [0, 1].map(|place| Coordinate::starts(&CAPSULE).nth(place).expect("a start"));
     let starts = [(y1, 1.0), (r, 1e-2)]
@@ -45,6 +44,10 @@ fn drawn(number: usize) -> (&'static str, Study) {
     let parameter = ALONG[(random.uniform(0.0, 1.0) * ALONG.len() as f64) as usize];
     let (low, value) = (base[parameter] * random.uniform(0.5, 1.0), base[parameter]);
     let along = axis(Coordinate::Parameter(parameter.into()), low, 1.2 * value + 1e-3, 5);
+    let along = match random.uniform(0.0, 1.0) < 0.3 {
+        true => path(along, &base),
+        false => along,
+    };
     let axes = match kind {
         "starts" => starts.to_vec(),
         "shares" => [vec![along], starts.to_vec()].concat(),
@@ -65,6 +68,17 @@ fn drawn(number: usize) -> (&'static str, Study) {
         ..Study::default()
     };
     (kind, study.validated("a study").expect("it is valid"))
+}
+
+/// The axis of a parameter as a path along which another parameter falls.
+fn path(axis: Axis, base: &Parameters) -> Axis {
+    let mut varying = axis.varying.clone();
+    let is_other = |it: &&Parameter| axis.coordinates().all(|own| own.name() != it.symbol());
+    let other = *ALONG.iter().find(is_other).expect("several parameters");
+    let values = Spacing::Linear.values(base[other] + 1e-3, 0.7 * base[other], axis.places());
+    varying.push(Varying { coordinate: Coordinate::Parameter(other.into()), values });
+    varying.sort_by_key(|it| Coordinate::all(&CAPSULE).position(|other| other == it.coordinate));
+    Axis { path: Some("line".to_owned()), varying }
 }
 
 /// The time of the processor that a process has taken, where the system tells it as Linux does.

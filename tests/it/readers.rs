@@ -38,7 +38,7 @@ fn expectation(dataset: &Dataset) -> Value {
 }
 
 /// The Python that has the readers; a printed line and none where there is none.
-fn python() -> Option<String> {
+pub(super) fn python() -> Option<String> {
     let python = std::env::var("CAPSULEMAP_PYTHON").unwrap_or_else(|_| "python3".into());
     let readers = "import h5py, netCDF4, h5netcdf, xarray";
     let probe = Command::new(&python).args(["-c", readers]).output();
@@ -50,7 +50,7 @@ fn python() -> Option<String> {
 }
 
 /// Sure that every reader finds in the file at `path` what `dataset` holds.
-fn assert_readers_find(python: &str, path: &Path, dataset: &Dataset) {
+pub(super) fn assert_readers_find(python: &str, path: &Path, dataset: &Dataset) {
     let expected = path.with_extension("expected.json");
     fs::write(&expected, expectation(dataset).to_string()).expect("it is written");
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/check_dataset.py");

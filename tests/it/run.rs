@@ -159,12 +159,12 @@ fn an_inherited_start_is_the_final_state_of_the_neighbour() {
     let parameters = |omega: f64| {
         let mut parameters = study.base.clone();
         parameters[Parameter::Omega] = omega;
-        parameters[Parameter::Pd] = study.axes()[1].values[1];
+        parameters[Parameter::Pd] = study.axes()[1].varying[0].values[1];
         parameters
     };
     // The last case of the middle row: twice on from where the neighbour was left.
     let mut start = State::default();
-    for (i, &omega) in study.axes()[0].values.iter().enumerate() {
+    for (i, &omega) in study.axes()[0].varying[0].values.iter().enumerate() {
         let orbit = settle(&parameters(omega), 0.0, start, &study.protocol);
         start = State { x2: 0.0, ..orbit.end.capsule() };
         let expected = orbit.outputs[Output::ProgressionSpeed];

@@ -168,7 +168,7 @@ fn what_a_study_must_say_is_asked_for() {
 
 #[test]
 fn axes_are_linear_logarithmic_or_lists() {
-    let values = |axis: &str| read(&omega_axis(axis)).axes()[0].values.clone();
+    let values = |axis: &str| read(&omega_axis(axis)).axes()[0].varying[0].values.clone();
     let ends = "from = \"10 rad/s\"\nto = \"40 rad/s\"\n";
     assert_eq!(values(&format!("{ends}points = 4")), [10.0, 20.0, 30.0, 40.0]);
     let named = format!("{ends}points = 3\nspacing = \"logarithmic\"");

@@ -5,13 +5,22 @@ use std::collections::BTreeMap;
 use capsulemap::quantity::Allowed;
 use capsulemap::study::appearance::NATURAL;
 use capsulemap::study::{
-    COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Drawing, DrawingKind,
+    Axis, COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Drawing, DrawingKind,
     QuantitySettings, ScaleChoice, Settings, Study, Sweep, Texts,
 };
 
 use super::random_numbers::Random;
 
 impl Random {
+    /// Where an axis is held: by what varies along it, or of a path by its places.
+    fn held_at(&mut self, axis: &Axis) -> (String, f64) {
+        if axis.path.is_some() && self.is_so() {
+            return (axis.name().to_owned(), self.below(axis.places()) as f64);
+        }
+        let varying = &axis.varying[self.below(axis.varying.len())];
+        (varying.coordinate.name().to_owned(), self.one(&varying.values))
+    }
+
     /// A figure of a study.
     pub fn drawing(&mut self, study: &Study, name: String) -> Drawing {
         let is_grid = matches!(study.case_set, CaseSet::Grid(_));
@@ -26,9 +35,8 @@ impl Random {
             .filter(|kind| is_design || *kind != DrawingKind::Sensitivity)
             .collect();
         let kind = self.one(&kinds);
-        let mut names: Vec<&str> = study.axes().iter().map(|axis| axis.coordinate.name()).collect();
-        let coordinates: Vec<Coordinate> =
-            study.axes().iter().map(|axis| axis.coordinate).collect();
+        let mut names: Vec<&str> = study.axes().iter().map(Axis::name).collect();
+        names.extend(study.case_set.varied().iter().map(|it| it.name()));
         if matches!(kind, DrawingKind::Bifurcation | DrawingKind::Curves) {
             names
                 .extend(study.branches.iter().flat_map(Continuation::varied).map(|it| it.symbol()));
@@ -48,12 +56,8 @@ impl Random {
         if is_plane && of.len() == 1 {
             of.clear();
         }
-        let held = self.some(&coordinates);
-        let held_at = |it: &Coordinate| {
-            let axis = study.axes().iter().find(|axis| axis.coordinate == *it);
-            (it.name().to_owned(), self.one(&axis.expect("an axis").values))
-        };
-        let at: BTreeMap<String, f64> = held.iter().map(held_at).collect();
+        let held = self.some(study.axes());
+        let at: BTreeMap<String, f64> = held.iter().map(|axis| self.held_at(axis)).collect();
         let from = self.uniform(0.0, 3.0);
         Drawing {
             name,

@@ -12,7 +12,7 @@ use capsulemap::orbit::{Exponents, Protocol};
 use capsulemap::quantity::Allowed;
 use capsulemap::study::{
     Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Draws, FirstOrbit, Grid, Inherit,
-    Normal, Range, Refine, Spacing, Study,
+    Normal, Range, Refine, Spacing, Study, Varying,
 };
 
 use super::random_numbers::Random;
@@ -41,7 +41,26 @@ impl Random {
                 distinct.push(value);
             }
         }
-        Axis { coordinate, values: distinct }
+        Axis::of(coordinate, distinct)
+    }
+
+    /// A path, the first quantity of which has other values at each place.
+    fn path(&mut self, mut coordinates: Vec<Coordinate>) -> Axis {
+        coordinates.sort_by_key(|it| Coordinate::all(&CAPSULE).position(|other| other == *it));
+        let mut axis = self.axis(coordinates[0]);
+        let places = axis.places();
+        if coordinates.len() == 1 {
+            axis.varying[0].values.sort_by(f64::total_cmp);
+        }
+        for coordinate in coordinates.into_iter().skip(1) {
+            let ends = [self.number(coordinate.allowed()), self.number(coordinate.allowed())];
+            let values = match self.is_so() {
+                true => Spacing::Linear.values(ends[0], ends[1], places),
+                false => (0..places).map(|_| self.number(coordinate.allowed())).collect(),
+            };
+            axis.varying.push(Varying { coordinate, values });
+        }
+        Axis { path: Some("line".to_owned()), ..axis }
     }
 
     fn range(&mut self, coordinate: Coordinate) -> Range {
@@ -73,9 +92,14 @@ impl Random {
             };
             return CaseSet::Draws(Draws { kind, count, seed: self.bits() >> 1, ranges });
         }
-        let axes: Vec<Axis> = coordinates.into_iter().map(|it| self.axis(it)).collect();
-        let parameter = |axis: &usize| matches!(axes[*axis].coordinate, Coordinate::Parameter(_));
-        let parameters: Vec<usize> = (0..axes.len()).filter(parameter).collect();
+        let together = if self.below(3) == 0 { coordinates.len() / 2 } else { 0 };
+        let along = coordinates.split_off(coordinates.len() - together);
+        let mut axes: Vec<Axis> = coordinates.into_iter().map(|it| self.axis(it)).collect();
+        if !along.is_empty() {
+            axes.push(self.path(along));
+        }
+        let parameters: Vec<usize> =
+            (0..axes.len()).filter(|axis| axes[*axis].is_of_parameters()).collect();
         let directions = self.some(&Direction::ALL);
         let inherit = (!parameters.is_empty() && !directions.is_empty())
             .then(|| Inherit { axis: self.one(&parameters), directions });
@@ -270,7 +294,7 @@ fn every_study_that_is_kept_is_read_back_as_it_was_written() {
 fn an_axis_keeps_its_form_and_its_bits() {
     let axis = |values: Vec<f64>| Study {
         case_set: CaseSet::Grid(Grid {
-            axes: vec![Axis { coordinate: Coordinate::Parameter(Parameter::K2.into()), values }],
+            axes: vec![Axis::of(Coordinate::Parameter(Parameter::K2.into()), values)],
             inherit: None,
         }),
         ..Study::default()
@@ -289,7 +313,7 @@ fn an_axis_keeps_its_form_and_its_bits() {
 #[test]
 fn all_faults_of_a_study_built_in_code_are_reported_at_once() {
     let values = vec![60.0, f64::NAN, 60.0];
-    let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Omega.into()), values }];
+    let axes = vec![Axis::of(Coordinate::Parameter(Parameter::Omega.into()), values)];
     let mut study = Study {
         title: "two\nlines".to_owned(),
         case_set: CaseSet::Grid(Grid {
@@ -324,18 +348,14 @@ fn what_a_study_file_cannot_hold_is_reported() {
     let ran = |study: Study| study.validated("built").expect_err("a fault").to_string();
     let start = State { x2: 1.0, ..State::default() }.into();
     assert!(ran(Study { start, ..Study::default() }).contains("start: a study file cannot hold"));
-    let axes =
-        vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd.into()), values: vec![1.0] }];
+    let axes = vec![Axis::of(Coordinate::Parameter(Parameter::Pd.into()), vec![1.0])];
     let inherit = Some(Inherit { axis: 0, directions: Vec::new() });
     let case_set = CaseSet::Grid(Grid { axes, inherit });
     assert!(ran(Study { case_set, ..Study::default() }).contains("axes: a study file cannot hold"));
     // `[basin]` is for studies whose cases differ in their starts alone, and its `refine` for grids: see studies/README.md.
     let message = ran(Study { early_decision: false, ..Study::default() });
     assert!(message.contains("basin.early_decision: a study file cannot hold false"), "{message}");
-    let axes = vec![Axis {
-        coordinate: Coordinate::Parameter(Parameter::Pd.into()),
-        values: vec![1.0, 2.0],
-    }];
+    let axes = vec![Axis::of(Coordinate::Parameter(Parameter::Pd.into()), vec![1.0, 2.0])];
     let case_set = CaseSet::Grid(Grid { axes, inherit: None });
     let refine = Some(Refine::Attractors);
     let message = ran(Study { case_set, refine, ..Study::default() });
@@ -346,7 +366,7 @@ fn what_a_study_file_cannot_hold_is_reported() {
     // A map is refined by one output or more.
     let axes = ["p_d", "k2"].map(|name| {
         let parameter = Parameter::named(name).expect("a parameter");
-        Axis { coordinate: Coordinate::Parameter(parameter.into()), values: vec![1.0, 2.0] }
+        Axis::of(Coordinate::Parameter(parameter.into()), vec![1.0, 2.0])
     });
     let case_set = CaseSet::Grid(Grid { axes: axes.to_vec(), inherit: None });
     let refine = Some(Refine::Outputs(Vec::new()));
@@ -358,8 +378,7 @@ fn what_a_study_file_cannot_hold_is_reported() {
     let reversed = Study { branches: vec![branch], ..Study::default() };
     assert!(ran(reversed).contains("branches[1]: a study file cannot hold"));
     // What is held constant of a coordinate that varies does not count.
-    let axes =
-        vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd.into()), values: vec![1.0] }];
+    let axes = vec![Axis::of(Coordinate::Parameter(Parameter::Pd.into()), vec![1.0])];
     let case_set = CaseSet::Grid(Grid { axes, inherit: None });
     let mut study = Study { case_set, ..Study::default() };
     study.base[Parameter::Pd] = -1.0;
