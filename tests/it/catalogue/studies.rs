@@ -87,6 +87,8 @@ name = "start_y1"
 from = "-1 m/s"
 to = "1 m/s"
 points = 64
+[basin]
+manifolds = true
 "#,
     r#"
 [parameters]

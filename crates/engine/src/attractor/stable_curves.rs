@@ -14,6 +14,11 @@ use super::unstable_branch::UnstableSearch;
 /// Curves at most, and points of all of them together.
 const MOST_CURVES: usize = 300;
 const MOST_POINTS: usize = 40_000;
+/// Cycles that are followed for each pair of neighbouring starts that lead to two attractors, on the average, and for all: a smooth
+/// boundary takes a few hundred for each.
+const PER_CROSSING: u64 = 4000;
+const LEAST_CYCLES: u64 = 400_000;
+const MOST_CYCLES: u64 = 8_000_000;
 /// The search stops after so many pairs of starts from which no curve is found.
 const MOST_FAILED: usize = 48;
 /// Two starts on the two sides are brought this close together before derivatives are tried, and then closer, the distance of the
@@ -69,7 +74,10 @@ impl<const D: usize> ManifoldSearch<'_, D> {
     /// Breaks: where the boundary is fractal there is no end of curves, and the search stops; where the map is torn, the boundary is
     /// no manifold of a saddle and is followed by division alone.
     pub fn manifolds(&self, known: &[Saddle<[f64; D]>]) -> Manifolds<[f64; D]> {
-        let plane = StartPlane { map: &self.map, plane: self.plane, cycles: Cell::new(0) };
+        let cover = BoundaryCover::of(self.plane, self.attractors);
+        let most = (PER_CROSSING * cover.pairs.len() as u64).clamp(LEAST_CYCLES, MOST_CYCLES);
+        let cycles = Cell::new(0);
+        let plane = StartPlane { map: &self.map, plane: self.plane, cycles, most };
         let mut search = Search {
             search: self,
             plane,
@@ -82,7 +90,7 @@ impl<const D: usize> ManifoldSearch<'_, D> {
         for saddle in known {
             search.learn(saddle);
         }
-        let coverage = search.cover();
+        let coverage = search.cover(cover);
         let Search { saddles, frames, curves, .. } = search;
         let mut unstable = Vec::new();
         for (place, frame) in frames.iter().take(MOST_SADDLES).enumerate() {
@@ -115,9 +123,7 @@ impl<const D: usize> Search<'_, D> {
     }
 
     /// Follows curves until each pair of neighbouring starts that lead to two attractors has one beside it.
-    fn cover(&mut self) -> Coverage {
-        let search = self.search;
-        let mut cover = BoundaryCover::of(search.plane, search.attractors);
+    fn cover(&mut self, mut cover: BoundaryCover<'_, [f64; D]>) -> Coverage {
         let mut coverage = Coverage { crossings: cover.pairs.len(), ..Coverage::default() };
         for number in 0..cover.pairs.len() {
             let pair = cover.pairs[number];

@@ -11,8 +11,6 @@ const NEAR: f64 = 0.05;
 const LEFT: f64 = 4.0;
 /// Cycles that a motion is followed until it is near the saddle.
 const MOST_CYCLES: usize = 500;
-/// Cycles for which it is worth to follow all curves together.
-const MOST_WORK: u64 = 6_000_000;
 /// Cycles that a start is followed until it is known where it leads, about, and that one with derivatives is worth.
 const PER_START: u64 = 30;
 const PER_IMAGE: u64 = 5;
@@ -29,6 +27,8 @@ pub(super) struct StartPlane<'a, const D: usize> {
     pub plane: &'a Plane<[f64; D]>,
     /// Cycles that have been followed so far, about: those with derivatives count as several.
     pub cycles: Cell<u64>,
+    /// Cycles that may be followed.
+    pub most: u64,
 }
 
 /// How a motion comes near a saddle.
@@ -72,7 +72,7 @@ impl<const D: usize> StartPlane<'_, D> {
 
     /// Whether as many cycles have been followed as may be.
     pub fn is_spent(&self) -> bool {
-        self.cycles.get() >= MOST_WORK
+        self.cycles.get() >= self.most
     }
 
     fn count(&self, cycles: u64) {
