@@ -3,7 +3,7 @@
 use super::error::FigureError;
 use super::shown::Shown;
 use super::view::View;
-use crate::store::catalogue::{ATTRACTOR_AXIS, named};
+use crate::store::catalogue::{ATTRACTOR_AXIS, DRAW, named};
 use crate::store::dataset::{Dataset, Variable};
 use crate::store::schema::INHERITED_ALONG;
 use crate::store::{Path, paths};
@@ -109,7 +109,8 @@ impl<'a> View<'a> {
     /// What varies beside an axis along a path, as the names of variables; nothing of an axis that is no path.
     pub fn beside(&self, axis: &str) -> Vec<&'a str> {
         let (dataset, mut names) = (self.dataset, Vec::new());
-        if dataset.coordinate(axis).is_none() {
+        // What is drawn goes along no path.
+        if axis == DRAW.name || dataset.coordinate(axis).is_none() {
             return names;
         }
         for name in Coordinate::all(self.model()).map(Coordinate::name) {

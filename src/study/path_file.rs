@@ -150,6 +150,10 @@ fn read_places(table: &Table<'_, '_>, values: &Entry<'_, '_>) -> Option<Vec<Vary
         }
         places.push(place);
     }
+    // A place without a value has none along the others either.
+    if places.iter().flatten().any(|(_, value)| value.is_none()) {
+        return places.first().map(|first| unread(first));
+    }
     let varying = places.first()?.iter().enumerate().map(|(i, (coordinate, _))| {
         let values = places.iter().filter_map(|place| place[i].1);
         Varying { coordinate: *coordinate, values: values.collect() }
