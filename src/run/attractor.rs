@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::cases::{Rayon, RunError, pool};
 use super::infer::infer;
+use super::inherited_pairs::leads;
 use super::together::together;
 use super::{FinalMotions, Machine};
 use crate::attractor::{Attractor, Bridge, Label, Links, Table};
@@ -307,26 +308,6 @@ impl<'a> Line<'a> {
             }
         }
     }
-}
-
-/// The attractors of two cells between which the cases lead that have this one of the `directions` of a cell in
-/// turn, each pair once.
-fn leads(
-    cells: &[Arc<Table<Section>>; 2],
-    directions: &[Direction],
-    direction: Direction,
-) -> Vec<[usize; 2]> {
-    let [low, high] = cells.each_ref().map(|cell| &cell.of_case);
-    let both = low.iter().zip(high).zip(directions.iter().cycle());
-    let mut pairs = Vec::new();
-    for ((a, b), _) in both.filter(|(_, it)| **it == direction) {
-        if let (Some(a), Some(b)) = (a, b)
-            && !pairs.contains(&[*a as usize, *b as usize])
-        {
-            pairs.push([*a as usize, *b as usize]);
-        }
-    }
-    pairs
 }
 
 /// The cells of a line, with how their attractors go on from one to another.

@@ -10,6 +10,7 @@ pub mod continuation;
 pub mod edge;
 pub mod forecast;
 mod infer;
+mod inherited_pairs;
 mod inferred_sample;
 mod jump;
 pub mod map_boundaries;
