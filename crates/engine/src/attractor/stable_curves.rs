@@ -7,7 +7,7 @@ use super::crossing::Crossing;
 use super::edge::{Met, Saddle};
 use super::manifold::{Coverage, CurveEnd, Manifolds, Plane, SectionMap, StableCurve};
 use super::saddle_frame::SaddleFrame;
-use super::stable_curve::Follower;
+use super::stable_curve::{Follower, OpenEnd};
 use super::start_plane::StartPlane;
 use super::unstable_branch::UnstableSearch;
 
@@ -53,8 +53,7 @@ struct Search<'a, const D: usize> {
     saddles: Vec<Met<[f64; D]>>,
     frames: Vec<SaddleFrame<D>>,
     curves: Vec<StableCurve>,
-    /// Ends of curves at which nothing more was found, with the directions outward.
-    open: Vec<([f64; 2], [f64; 2])>,
+    open: Vec<OpenEnd>,
     points: usize,
 }
 
@@ -156,7 +155,8 @@ impl<const D: usize> Search<'_, D> {
         for (end, [at, before]) in curve.ends.into_iter().zip(ends) {
             if matches!(end, CurveEnd::Far | CurveEnd::Lost | CurveEnd::Length) {
                 let length = libm::hypot(at[0] - before[0], at[1] - before[1]);
-                self.open.push((at, [0, 1].map(|side| (at[side] - before[side]) / length)));
+                let outward = [0, 1].map(|side| (at[side] - before[side]) / length);
+                self.open.push(OpenEnd { at, outward });
             }
         }
         self.points += points.len();
