@@ -14,11 +14,11 @@ use super::unstable_branch::UnstableSearch;
 /// Curves at most, and points of all of them together.
 const MOST_CURVES: usize = 300;
 const MOST_POINTS: usize = 40_000;
-/// Cycles that are followed for each pair of neighbouring starts that lead to two attractors, on the average, and for all: a smooth
-/// boundary takes a few hundred for each.
-const PER_CROSSING: u64 = 4000;
-const LEAST_CYCLES: u64 = 400_000;
-const MOST_CYCLES: u64 = 8_000_000;
+/// Cycles that are followed for each pair of neighbouring starts that lead to two attractors, on the average, and for all: a boundary
+/// takes a few hundred for each by derivatives, and some ten thousand by division.
+const PER_CROSSING: u64 = 20_000;
+const LEAST_CYCLES: u64 = 1_500_000;
+const MOST_CYCLES: u64 = 12_000_000;
 /// The search stops after so many pairs of starts from which no curve is found.
 const MOST_FAILED: usize = 48;
 /// Two starts on the two sides are brought this close together before derivatives are tried, and then closer, the distance of the
