@@ -88,15 +88,14 @@ fn distances(
     }
     for _ in 0..22 {
         let known: Vec<usize> = (0..places.len()).filter(|it| brackets[*it].is_some()).collect();
-        let middle = |it: &usize| brackets[*it].map_or(0.0, |[a, b]| 0.5 * (a + b));
+        let middles: Vec<f64> =
+            known.iter().map(|it| brackets[*it].map_or(0.0, |[a, b]| 0.5 * (a + b))).collect();
         let starts: Vec<[f64; 2]> =
-            known.iter().map(|it| moved(&places[*it], middle(it))).collect();
-        let leads = leads(&starts);
-        for (place, leads) in known.iter().zip(leads) {
-            let at = middle(place);
+            known.iter().zip(&middles).map(|(it, middle)| moved(&places[*it], *middle)).collect();
+        for ((place, middle), leads) in known.iter().zip(middles).zip(leads(&starts)) {
             if let Some(bracket) = &mut brackets[*place] {
                 let is_left = leads == Some(places[*place].sides[0]);
-                bracket[usize::from(is_left)] = at;
+                bracket[usize::from(is_left)] = middle;
             }
         }
     }
