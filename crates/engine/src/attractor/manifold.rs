@@ -1,10 +1,8 @@
 //! What is known of the curves in which basins meet: stable manifolds of saddles in a plane of starts, and their unstable manifolds.
 
-use super::edge::Met;
+use super::edge::{LeadTo, Met};
 use crate::flow::Metric;
 use crate::orbit::return_map::Image;
-
-use super::LeadTo;
 
 /// The return map of a system over one cycle, and where its motions lead.
 pub struct SectionMap<'a, const D: usize> {

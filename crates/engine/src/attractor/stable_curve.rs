@@ -51,6 +51,15 @@ pub(super) struct CurvePoint {
     divided: bool,
 }
 
+/// An end of a curve at which nothing more was found.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OpenEnd {
+    /// Where it is.
+    pub at: [f64; 2],
+    /// The direction in which the curve would go on.
+    pub outward: [f64; 2],
+}
+
 /// What follows one curve.
 pub(super) struct Follower<'a, const D: usize> {
     /// The plane.
@@ -59,8 +68,8 @@ pub(super) struct Follower<'a, const D: usize> {
     pub saddle: Option<(usize, &'a SaddleFrame<D>)>,
     /// The attractors on the left and on the right of the curve.
     pub sides: [u32; 2],
-    /// Ends of other curves that are open, with the directions in which those go on there.
-    pub open: &'a [([f64; 2], [f64; 2])],
+    /// Ends of other curves that are open.
+    pub open: &'a [OpenEnd],
     /// Points that it may still have.
     pub most: usize,
 }
@@ -153,28 +162,36 @@ impl<const D: usize> Follower<'_, D> {
             if short > SHORT_STEPS {
                 return (points, CurveEnd::Lost);
             }
-            if points.len() > CAN_CLOSE && passes(&last, &point, &first.at, &first.tangent) {
-                points.push(first);
-                return (points, CurveEnd::Closed);
-            }
-            if is_on_border(&point.at) && distance(&last.at, &point.at) <= FOUND && points.len() > 1
-            {
-                points.pop();
-            }
-            points.push(point);
-            if is_on_border(&point.at) {
-                return (points, CurveEnd::Border);
-            }
-            let mut others = self.open.iter();
-            if let Some((at, outward)) =
-                others.find(|(at, outward)| passes(&last, &point, at, &outward.map(|it| -it)))
-            {
-                let tangent = outward.map(|it| -it);
-                points.pop();
-                points.push(CurvePoint { at: *at, tangent, ..point });
-                return (points, CurveEnd::Meets);
+            if let Some(end) = self.take(&mut points, point) {
+                return (points, end);
             }
         }
+    }
+
+    /// Takes a point as the next of a curve; why the curve ends there, if it does.
+    fn take(&self, points: &mut Vec<CurvePoint>, point: CurvePoint) -> Option<CurveEnd> {
+        let (first, last) = (points[0], points[points.len() - 1]);
+        if points.len() > CAN_CLOSE && passes(&last, &point, &first.at, &first.tangent) {
+            points.push(first);
+            return Some(CurveEnd::Closed);
+        }
+        let is_on_border = is_on_border(&point.at);
+        if is_on_border && distance(&last.at, &point.at) <= FOUND && points.len() > 1 {
+            points.pop();
+        }
+        if is_on_border {
+            points.push(point);
+            return Some(CurveEnd::Border);
+        }
+        let met = self.open.iter().map(|it| (it.at, it.outward.map(|part| -part)));
+        for (at, tangent) in met {
+            if passes(&last, &point, &at, &tangent) {
+                points.push(CurvePoint { at, tangent, ..point });
+                return Some(CurveEnd::Meets);
+            }
+        }
+        points.push(point);
+        None
     }
 
     /// The next point by derivatives; `step` is how far it is tried first, and then the length for the one after.

@@ -7,18 +7,18 @@ use super::crossing::Crossing;
 use super::edge::{Met, Saddle};
 use super::manifold::{Coverage, CurveEnd, Manifolds, Plane, SectionMap, StableCurve};
 use super::saddle_frame::SaddleFrame;
-use super::stable_curve::Follower;
+use super::stable_curve::{Follower, OpenEnd};
 use super::start_plane::StartPlane;
 use super::unstable_branch::UnstableSearch;
 
 /// Curves at most, and points of all of them together.
 const MOST_CURVES: usize = 300;
 const MOST_POINTS: usize = 40_000;
-/// Cycles that are followed for each pair of neighbouring starts that lead to two attractors, on the average, and for all: a smooth
-/// boundary takes a few hundred for each.
-const PER_CROSSING: u64 = 4000;
-const LEAST_CYCLES: u64 = 400_000;
-const MOST_CYCLES: u64 = 8_000_000;
+/// Cycles that are followed for each pair of neighbouring starts that lead to two attractors, on the average, and for all: a boundary
+/// takes a few hundred for each by derivatives, and some ten thousand by division.
+const PER_CROSSING: u64 = 20_000;
+const LEAST_CYCLES: u64 = 1_500_000;
+const MOST_CYCLES: u64 = 12_000_000;
 /// The search stops after so many pairs of starts from which no curve is found.
 const MOST_FAILED: usize = 48;
 /// Two starts on the two sides are brought this close together before derivatives are tried, and then closer, the distance of the
@@ -53,8 +53,7 @@ struct Search<'a, const D: usize> {
     saddles: Vec<Met<[f64; D]>>,
     frames: Vec<SaddleFrame<D>>,
     curves: Vec<StableCurve>,
-    /// Ends of curves at which nothing more was found, with the directions outward.
-    open: Vec<([f64; 2], [f64; 2])>,
+    open: Vec<OpenEnd>,
     points: usize,
 }
 
@@ -156,7 +155,8 @@ impl<const D: usize> Search<'_, D> {
         for (end, [at, before]) in curve.ends.into_iter().zip(ends) {
             if matches!(end, CurveEnd::Far | CurveEnd::Lost | CurveEnd::Length) {
                 let length = libm::hypot(at[0] - before[0], at[1] - before[1]);
-                self.open.push((at, [0, 1].map(|side| (at[side] - before[side]) / length)));
+                let outward = [0, 1].map(|side| (at[side] - before[side]) / length);
+                self.open.push(OpenEnd { at, outward });
             }
         }
         self.points += points.len();
