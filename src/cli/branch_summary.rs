@@ -68,9 +68,9 @@ fn write_found(text: &mut String, continuation: &Continuation, found: &Found) {
 /// A curve with its points of codimension 2.
 pub(super) fn write_curve(text: &mut String, continuation: &Continuation, curve: &Curve) {
     let Curve { kind, period, points, ends, .. } = curve;
-    let (name, points) = (kind_name(*kind), points.len());
+    let (name, points) = (kind_name(*kind), counted(points.len(), "point"));
     let ends = shown_ends(ends.map(Some));
-    let _ = writeln!(text, "  curve of {name}, period {period}: {points} points{ends}");
+    let _ = writeln!(text, "  curve of {name}, period {period}: {points}{ends}");
     curve.codim2.iter().for_each(|point| write_codim2(text, continuation, point));
 }
 

@@ -121,9 +121,7 @@ pub struct Varying {
 impl Varying {
     /// Whether there are several values, which all rise or all fall.
     pub fn is_ordered(&self) -> bool {
-        let pairs = || self.values.windows(2);
-        let (rise, fall) = (pairs().all(|it| it[0] < it[1]), pairs().all(|it| it[0] > it[1]));
-        self.values.len() > 1 && (rise || fall)
+        self.values.len() > 1 && is_monotone(&self.values)
     }
 }
 

@@ -72,6 +72,9 @@ impl Iterator for Chain {
 }
 
 impl Grid {
+    /// The name of the dimension of the directions in which starts are inherited.
+    pub const DIRECTION: &'static str = "direction";
+
     /// Number of values along each dimension, slowest first.
     pub fn shape(&self) -> Vec<usize> {
         let axes = self.axes.iter().map(Axis::places);
@@ -81,7 +84,7 @@ impl Grid {
     /// The names of the dimensions, slowest first.
     pub fn dimensions(&self) -> Vec<&str> {
         let axes = self.axes.iter().map(Axis::name);
-        axes.chain(self.direction_axis().map(|_| "direction")).collect()
+        axes.chain(self.direction_axis().map(|_| Grid::DIRECTION)).collect()
     }
 
     /// The directions, where there are several and they make a dimension of the results.

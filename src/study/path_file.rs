@@ -4,10 +4,10 @@ use super::axis::{Spacing, is_monotone};
 use super::axis_names::{MOST_VALUES, names, quantity};
 use super::document::{Entry, Table, unknown_of};
 use super::draws::Draws;
-use super::{Axis, Coordinate, Varying};
+use super::{Axis, Coordinate, Grid, Varying};
 
 /// The dimensions that results have of cases beside their axes.
-const DIMENSIONS: [&str; 2] = ["direction", Draws::DIMENSION];
+const DIMENSIONS: [&str; 2] = [Grid::DIRECTION, Draws::DIMENSION];
 
 /// Whether an axis is a path: its values, or one of its ends, are tables.
 pub(super) fn is_path(table: &Table<'_, '_>) -> bool {

@@ -32,7 +32,7 @@ const DEFINING: [&str; 8] = [
 ];
 
 /// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
-const OTHERS: [(&str, &[&str], &str); 23] = [
+const OTHERS: [(&str, &[&str], &str); 25] = [
     ("src/study/protocol_file.rs", &["cycles", "attractor"], "keys of a study"),
     ("src/study/study_text.rs", KEYS, "keys of a study"),
     ("src/study/start_file.rs", &["direction"], "keys of a study"),
@@ -57,6 +57,8 @@ const OTHERS: [(&str, &[&str], &str); 23] = [
     ("src/campaign/error.rs", &["block"], "a word of a message"),
     ("src/cli/branch_summary.rs", &["branch", "period"], "words of a message"),
     ("src/cli/claim_text.rs", &["block"], "a word of a message"),
+    ("src/cli/manifold_list.rs", &["attractor", "curve"], "keys, and words of a message"),
+    ("crates/engine/src/attractor/manifold.rs", &["attractor"], "why a manifold ends"),
     ("src/cli/dry_run.rs", &["block"], "a word of a message"),
     ("src/cli/join.rs", &["block"], "a word of a message"),
     ("src/cli/status.rs", &["block"], "a word of a message"),

@@ -29,6 +29,7 @@ mod drawn_studies;
 mod draws;
 mod experiments;
 mod explore_answers;
+mod explore_branches;
 mod explore_changed;
 mod explore_page;
 mod explore_private;

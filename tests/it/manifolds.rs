@@ -84,7 +84,8 @@ fn distances(
                 brackets[*place] = Some([-width, width]);
             }
         }
-        width /= 4.0;
+        // Another curve may be as near as the chord is to its own.
+        width /= 1.5;
     }
     for _ in 0..22 {
         let known: Vec<usize> = (0..places.len()).filter(|it| brackets[*it].is_some()).collect();

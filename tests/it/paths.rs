@@ -185,7 +185,7 @@ fn a_path_is_resumed_joined_verified_and_told_of() {
     let told = dir.run(&["inspect", "whole.h5"]).done();
     assert!(told.out.contains("line") && told.out.contains("omega"), "{}", told.out);
     let checked = dir.run(&["check", "parts.toml"]).done();
-    assert!(checked.out.contains("line of 9 places: omega, p_d"), "{}", checked.out);
+    assert!(checked.out.contains("line of 9 places: p_d, omega"), "{}", checked.out);
     // A case by its number is that of the file.
     let case = dir.run(&["simulate", "--study", "whole.toml", "--case", "9", "--json"]).json();
     assert!(case["orbit"].is_object());
@@ -195,7 +195,7 @@ fn a_path_is_resumed_joined_verified_and_told_of() {
 fn figures_name_what_varies_along_a_path() {
     let dir = WorkDir::new();
     let figures = "[[figures]]\nname = \"by-place\"\nkind = \"bifurcation\"\nx = \"line\"\ndata = true\n\
-        [[figures]]\nname = \"by-force\"\nkind = \"bifurcation\"\nx = \"p_d\"\ndata = true\n\
+        [[figures]]\nname = \"by-frequency\"\nkind = \"bifurcation\"\nx = \"omega\"\ndata = true\n\
         [[figures]]\nname = \"held\"\nkind = \"section\"\nat = { line = 3 }\n";
     swept(&dir, "along", &(oblique(25) + figures));
     let read = |name: &str| {
@@ -208,8 +208,8 @@ fn figures_name_what_varies_along_a_path() {
         )
     };
     let by_place = data("by-place");
-    assert!(by_place.contains("2.6 to 3"), "{}", &by_place[..600]);
-    assert!(data("by-force").contains("140 to 180"));
+    assert!(by_place.contains("140 to 180"), "{}", &by_place[..600]);
+    assert!(data("by-frequency").contains("2.6 to 3"));
     let drawn = |more: &[&str]| {
         dir.run(
             &[&["figure", "along.h5", "--kind", "bifurcation", "--formats", "svg"], more].concat(),
@@ -318,7 +318,7 @@ fn every_fault_of_a_path_is_told() {
         ),
         (
             format!("{line}{}", ends.replace(", p_d = \"4 N\"", "")),
-            "gives omega; expected omega, p_d",
+            "gives omega; expected p_d, omega",
         ),
         (
             format!("{line}{}", ends.replace("70", "60").replace("4 N", "2 N")),
@@ -369,7 +369,7 @@ fn the_text_of_a_path_keeps_its_form_and_its_bits() {
     let again = Study::parse("s.toml", &text).expect("a study");
     assert_eq!(again.axes(), study.axes());
     assert_eq!(again.fingerprint(), study.fingerprint());
-    assert_eq!(study.axes()[0].varying[1].values, [2.0; 7]);
+    assert_eq!(study.axes()[0].varying[0].values, [2.0; 7]);
 }
 
 #[test]

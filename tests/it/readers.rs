@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use capsulemap::store::{self, Dataset, Values};
+use capsulemap::study::{Coordinate, Draws};
 use serde_json::{Value, json};
 
 use super::program::WorkDir;
@@ -30,7 +31,13 @@ fn expectation(dataset: &Dataset) -> Value {
             (name, about)
         })
         .collect();
-    let coordinates: Vec<&String> = dataset.coordinates.iter().map(|(name, _)| name).collect();
+    // What varies along a path lies over its dimension, and is no dimension itself.
+    let along_paths = Coordinate::all(dataset.model()).map(Coordinate::name);
+    let along_paths = along_paths.filter_map(|it| dataset.variables.get_key_value(it));
+    let of_grid = along_paths.filter(|(_, it)| it.dimensions != [Draws::DIMENSION]);
+    let along_paths = of_grid.map(|(name, _)| name);
+    let coordinates: Vec<&String> =
+        dataset.coordinates.iter().map(|(name, _)| name).chain(along_paths).collect();
     json!({
         "coordinates": coordinates, "variables": variables,
         "attributes": dataset.attributes, "texts": dataset.texts,

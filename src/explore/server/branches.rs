@@ -14,7 +14,7 @@ use crate::flow::stop;
 use crate::model::Setting;
 use crate::motion::branch::{Branch, Found, Point, Request, Special};
 use crate::of::model_of;
-use crate::store::catalogue::section;
+use crate::store::catalogue::{PERIOD, section};
 use crate::study::axis::range;
 use crate::study::{Coordinate, Spacing, Varying};
 
@@ -46,7 +46,7 @@ impl LineBranch {
         let model = explored.model();
         let given = asked.coordinates_after("orbit_", model)?;
         let names = given.iter().map(|(it, _)| format!("orbit_{}", it.name()));
-        let own: Vec<String> = names.chain(["period", "place"].map(str::to_owned)).collect();
+        let own: Vec<String> = names.chain([PERIOD.name, "place"].map(str::to_owned)).collect();
         let own: Vec<&str> = own.iter().map(String::as_str).collect();
         let line = Line::with(explored, asked, &own)?;
         let Some(axis) = line.single() else {
@@ -77,7 +77,7 @@ impl LineBranch {
         let case = line.case(place);
         let request = Request {
             section: point?,
-            period: asked.count("period", [1, LONGEST_PERIOD], 1)? as u64,
+            period: asked.count(PERIOD.name, [1, LONGEST_PERIOD], 1)? as u64,
             along,
             range: range(&axis.values),
             doublings: 0,
@@ -114,7 +114,7 @@ impl LineBranch {
 
     fn branch(&self, branch: &Branch) -> Value {
         json!({
-            "period": branch.period,
+            (PERIOD.name): branch.period,
             "points": branch.points.iter().map(|it| self.point(it)).collect::<Vec<_>>(),
             "special": branch.special.iter().map(|it| self.special(it)).collect::<Vec<_>>(),
             "ends": branch.ends.map(|end| name_of(&End::NAMES, end)),

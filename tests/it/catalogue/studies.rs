@@ -1,7 +1,7 @@
 //! Studies that together have all variables that a file of results can have.
 
 /// Studies that together have all that a file of results can hold.
-pub(super) const STUDIES: [&str; 7] = [
+pub(super) const STUDIES: [&str; 8] = [
     r#"
 [parameters]
 m2 = "0.2 kg"
@@ -124,6 +124,7 @@ to = "22 rad/s"
 points = 2
 [map]
 refine = { progression_speed = "1 mm/s", work_positive = "1 mJ" }
+boundaries = { most_tries = 2 }
 "#,
     r#"
 [parameters]
@@ -170,5 +171,23 @@ name = "b"
 along = "delta_3"
 from = "3.9 mm"
 to = "4.1 mm"
+"#,
+    r#"
+[parameters]
+m2 = "0.2 kg"
+c = "1.77 N s/m"
+mu_s = 0.33
+mu_d = 0.165
+k2 = "65.518 kN/m"
+delta = "4.33 mm"
+[[axes]]
+name = "line"
+from = { omega = "140 rad/s", p_d = "2.6 N" }
+to = { omega = "180 rad/s", p_d = "3 N" }
+points = 9
+[start]
+y1 = "0.3 m/s"
+inherit = "line"
+directions = ["upward", "downward"]
 "#,
 ];
