@@ -46,6 +46,9 @@ struct Beside {
     sides: [u32; 2],
 }
 
+/// The attractors that starts lead to.
+type LeadTo<'a> = dyn Fn(&[[f64; 2]]) -> Vec<Option<u32>> + 'a;
+
 /// Evenly chosen points of some curves, and the middles of the chords from them on.
 fn places(curves: &[(Vec<[f64; 2]>, [u32; 2])], size: [f64; 2], count: usize) -> [Vec<Beside>; 2] {
     let total: usize = curves.iter().map(|(points, _)| points.len() - 1).sum();
@@ -65,10 +68,7 @@ fn places(curves: &[(Vec<[f64; 2]>, [u32; 2])], size: [f64; 2], count: usize) ->
 
 /// How far the boundary is from each place along the normal, the sides of the plane being one: bisection between starts on the left and
 /// on the right, as far apart as they lead to the two attractors; none where they do at no distance.
-fn distances(
-    places: &[Beside],
-    leads: &dyn Fn(&[[f64; 2]]) -> Vec<Option<u32>>,
-) -> Vec<Option<f64>> {
+fn distances(places: &[Beside], leads: &LeadTo<'_>) -> Vec<Option<f64>> {
     let moved = |it: &Beside, by: f64| [0, 1].map(|i| it.at[i] + by * it.left[i]);
     let mut brackets: Vec<Option<[f64; 2]>> = vec![None; places.len()];
     let mut width = 2e-3;
@@ -291,7 +291,11 @@ fn a_smooth_boundary_of_two_wells_is_a_few_curves_on_the_boundary_by_another_int
             })
             .collect()
     };
-    let [at, between] = [points, middles].map(|it| largest(&distances(&as_wells(it), &leads)));
+    // Beside the middle of a chord a start so near may lie on the other side of the curve.
+    let points = as_wells(points);
+    let of_point = |(it, point): (Beside, &Beside)| Beside { sides: point.sides, ..it };
+    let middles: Vec<Beside> = middles.into_iter().zip(&points).map(of_point).collect();
+    let [at, between] = [points, middles].map(|it| largest(&distances(&it, &leads)));
     println!("wells: points {at:?}, between {between:?}");
     assert!(at.0 < 1e-6 && between.0 < 1e-3, "{at:?} {between:?}");
     assert!(at.1 + between.1 <= count() / 12, "{at:?} {between:?}");
