@@ -18,7 +18,7 @@ use crate::study::Coordinate;
 /// The line on which two basins meet.
 const STABLE: Stroke = Stroke { colour: INK, width: 0.8, dash: Dash::None };
 /// The line of an unstable manifold.
-const UNSTABLE: Stroke = Stroke::dashed(INK, REFERENCE_WIDTH);
+const UNSTABLE: Stroke = Stroke { colour: INK, width: REFERENCE_WIDTH, dash: Dash::Mixed };
 
 /// What is read of the manifolds.
 pub fn reads(model: &'static Description) -> Names {

@@ -55,7 +55,7 @@ const OTHERS: [(&str, &[&str], &str); 25] = [
     ("src/cli/simulate.rs", OPTIONS, "options of a command"),
     ("src/cli/phases.rs", &["start_phase", "section_phase"], "options of a command"),
     ("src/campaign/error.rs", &["block"], "a word of a message"),
-    ("src/cli/branch_summary.rs", &["branch", "period"], "words of a message"),
+    ("src/cli/branch_summary.rs", &["branch", "period", "point"], "words of a message"),
     ("src/cli/claim_text.rs", &["block"], "a word of a message"),
     ("src/cli/manifold_list.rs", &["attractor", "curve"], "keys, and words of a message"),
     ("crates/engine/src/attractor/manifold.rs", &["attractor"], "why a manifold ends"),
