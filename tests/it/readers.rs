@@ -31,15 +31,15 @@ fn expectation(dataset: &Dataset) -> Value {
             (name, about)
         })
         .collect();
+    let coordinates: Vec<&String> = dataset.coordinates.iter().map(|(name, _)| name).collect();
     // What varies along a path lies over its dimension, and is no dimension itself.
     let along_paths = Coordinate::all(dataset.model()).map(Coordinate::name);
     let along_paths = along_paths.filter_map(|it| dataset.variables.get_key_value(it));
-    let of_grid = along_paths.filter(|(_, it)| it.dimensions != [Draws::DIMENSION]);
-    let along_paths = of_grid.map(|(name, _)| name);
-    let coordinates: Vec<&String> =
-        dataset.coordinates.iter().map(|(name, _)| name).chain(along_paths).collect();
+    let along_paths = along_paths
+        .filter(|(_, it)| it.dimensions.len() == 1 && it.dimensions != [Draws::DIMENSION]);
+    let auxiliary: Vec<&String> = along_paths.map(|(name, _)| name).collect();
     json!({
-        "coordinates": coordinates, "variables": variables,
+        "coordinates": coordinates, "auxiliary": auxiliary, "variables": variables,
         "attributes": dataset.attributes, "texts": dataset.texts,
     })
 }

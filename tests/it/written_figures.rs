@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use capsulemap::quantity::Allowed;
 use capsulemap::study::appearance::NATURAL;
 use capsulemap::study::{
-    Axis, COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Drawing, DrawingKind,
-    QuantitySettings, ScaleChoice, Settings, Study, Sweep, Texts,
+    Axis, COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Drawing,
+    DrawingKind, QuantitySettings, ScaleChoice, Settings, Study, Sweep, Texts,
 };
 
 use super::random_numbers::Random;
@@ -36,7 +36,9 @@ impl Random {
             .collect();
         let kind = self.one(&kinds);
         let mut names: Vec<&str> = study.axes().iter().map(Axis::name).collect();
-        names.extend(study.case_set.varied().iter().map(|it| it.name()));
+        let grid: Vec<Vec<Coordinate>> =
+            study.axes().iter().map(|axis| axis.coordinates().collect()).collect();
+        names.extend(grid.concat().iter().map(|it| it.name()));
         if matches!(kind, DrawingKind::Bifurcation | DrawingKind::Curves) {
             names
                 .extend(study.branches.iter().flat_map(Continuation::varied).map(|it| it.symbol()));

@@ -103,7 +103,7 @@ def with_xarray(engine):
         check_globals(reader, file.attrs)
         # What is the same for all cases is a coordinate, too, so that it is not spread over them.
         constants = {name for name, about in expected["variables"].items() if not about["shape"]}
-        coordinates = set(expected["coordinates"]) | constants | set(expected["texts"])
+        coordinates = set(expected["coordinates"]) | set(expected["auxiliary"]) | constants | set(expected["texts"])
         check(reader, "file", "coordinates", set(file.coords), coordinates)
         names = set(expected["variables"]) | set(expected["texts"])
         check(reader, "file", "variables", set(file.variables), names)
