@@ -128,9 +128,18 @@ engine_alone() {
     echo "the engine alone needs $((count - 1)) crates"
 }
 
-# Takes minutes to build, also without optimisation, so that it comes only where CI is set.
+# What the checks of the dependencies depend on.
+dependencies_sum() {
+    cat deny.toml Cargo.lock Cargo.toml crates/*/Cargo.toml | sha256sum | cut -d " " -f 1
+}
+
+# Takes minutes to build, also without optimisation, so that it comes only where CI is set and something has changed since it passed.
 dependencies() {
     local version=0.20.2 log=target/check-deny.log
+    if [ "$(dependencies_sum)" = "$(cat deny.sum)" ]; then
+        echo "the dependencies are those that cargo-deny $version has passed (deny.sum)"
+        return
+    fi
     if ! cargo deny --version >/dev/null 2>&1; then
         if [ -z "${CI:-}" ]; then
             echo "cargo-deny is not installed: the dependencies are not checked (cargo install --locked cargo-deny)"
@@ -139,6 +148,8 @@ dependencies() {
         cargo install --quiet --locked --debug --version "$version" cargo-deny >"$log" 2>&1 || { cat "$log" >&2; return 1; }
     fi
     cargo deny check licenses bans sources
+    dependencies_sum >deny.sum
+    echo "deny.sum is new: commit it"
 }
 
 step "what the machine needs" scripts/setup.sh
