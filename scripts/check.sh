@@ -121,8 +121,7 @@ documentation() {
 
 # The engine for any system, without HDF5, plotters and clap.
 engine_alone() {
-    cargo check -p capsulemap --no-default-features --lib
-    cargo check -p capsulemap-engine --examples
+    cargo check -p capsulemap --no-default-features --lib && cargo check -p capsulemap-engine --examples || return 1
     local count
     count=$(cargo tree -p capsulemap --no-default-features --edges normal --prefix none | sort -u | wc -l)
     echo "the engine alone needs $((count - 1)) crates"
