@@ -121,22 +121,21 @@ documentation() {
 
 # The engine for any system, without HDF5, plotters and clap.
 engine_alone() {
-    cargo check -p capsulemap --no-default-features --lib
-    cargo check -p capsulemap-engine --examples
+    cargo check -p capsulemap --no-default-features --lib && cargo check -p capsulemap-engine --examples || return 1
     local count
     count=$(cargo tree -p capsulemap --no-default-features --edges normal --prefix none | sort -u | wc -l)
     echo "the engine alone needs $((count - 1)) crates"
 }
 
-# What the checks of the dependencies depend on.
+# What the checks of the dependencies by a version of cargo-deny depend on.
 dependencies_sum() {
-    cat deny.toml Cargo.lock Cargo.toml crates/*/Cargo.toml | sha256sum | cut -d " " -f 1
+    { echo "$1" && cat deny.toml Cargo.lock Cargo.toml crates/*/Cargo.toml; } | sha256sum | cut -d " " -f 1
 }
 
 # Takes minutes to build, also without optimisation, so that it comes only where CI is set and something has changed since it passed.
 dependencies() {
     local version=0.20.2 log=target/check-deny.log
-    if [ "$(dependencies_sum)" = "$(cat deny.sum)" ]; then
+    if [ "$(dependencies_sum "$version")" = "$(cat deny.sum)" ]; then
         echo "the dependencies are those that cargo-deny $version has passed (deny.sum)"
         return
     fi
@@ -147,8 +146,9 @@ dependencies() {
         fi
         cargo install --quiet --locked --debug --version "$version" cargo-deny >"$log" 2>&1 || { cat "$log" >&2; return 1; }
     fi
-    cargo deny check licenses bans sources
-    dependencies_sum >deny.sum
+    # A step does not end by itself where a command of it fails.
+    cargo deny check licenses bans sources || return 1
+    dependencies_sum "$version" >deny.sum
     echo "deny.sum is new: commit it"
 }
 
