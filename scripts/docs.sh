@@ -30,7 +30,7 @@ done
     printf '\n# Beside the book\n\n'
     printf -- '- [%s](%s)\n' "The program" README.md "Working on it" CONTRIBUTING.md Changes CHANGELOG.md \
         "A short tour of Python" python/README.md "Names in Python" python/names.md \
-        "Measurements of the integrator" benches/README.md Studies studies/README.md Systems systems/README.md
+        Studies studies/README.md Systems systems/README.md "Measurements of the integrator" benches/README.md
     for record in benches/records/*.md; do
         printf '  - [%s](%s)\n' "$(basename "$record" .md)" "$record"
     done
