@@ -14,7 +14,8 @@ beside=(README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff LICENSE-APACHE LICEN
     benches/README.md benches/records python/README.md python/names.md python/tutorial.ipynb studies systems results/gallery)
 
 if ! [ "$("$tools/bin/mdbook" --version 2>/dev/null)" = "mdbook v$version" ]; then
-    cargo install --locked --version "$version" --root "$tools" mdbook
+    # Without its server, and quickly built, as it runs for a second.
+    cargo install --quiet --locked --debug --no-default-features --features search --version "$version" --root "$tools" mdbook
 fi
 
 # mdBook takes pages from below one folder alone: the documents are put there as they lie in the repository, so that links hold.
