@@ -1,5 +1,5 @@
 #!/bin/sh
-# The README's experiment: the recordings of a rig that is a simulation, what is identified from them, and the picture of the comparison.
+# The experiment of docs/experiment.md: the recordings of a rig that is a simulation, what is identified from them, and the picture of the comparison.
 set -eu
 cd "$(dirname "$0")/.."
 program=${CAPSULEMAP:-cargo run --release --}

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes results/README.md, a gallery: each kind of figure with the part of the study that draws it, and what can be set.
+# Writes docs/gallery.md, a gallery: each kind of figure with the part of the study that draws it, and what can be set.
 # Draws the pictures of the latter into results/gallery/ from the studies overview and hysteresis (some two minutes on two
 # cores); with --page it writes the page alone. All pictures of kinds are those of the studies themselves, taken from the folders
 # of their results where those are there.
@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 program=target/release/capsulemap
-page=results/README.md
+page=docs/gallery.md
 
 # The lines of a study that ask for a figure: study, name of the figure.
 asked() {
@@ -23,7 +23,7 @@ asked() {
 
 # A kind of figure: kind, what it shows, study, name of the figure, picture.
 kind() {
-    printf '## %s\n\n%s\n\n![%s](gallery/%s)\n\n[studies/%s.toml](../studies/%s.toml):\n\n```toml\n%s\n```\n\n' \
+    printf '## %s\n\n%s\n\n![%s](../results/gallery/%s)\n\n[studies/%s.toml](../studies/%s.toml):\n\n```toml\n%s\n```\n\n' \
         "$1" "$2" "$1" "$5" "$3" "$3" "$(asked "$3" "$4")"
 }
 
@@ -38,7 +38,7 @@ setting() {
         *) shown+=" $option" ;;
         esac
     done
-    printf '### %s\n\n%s\n\n![%s](gallery/%s.png)\n\n```sh\ncapsulemap figure%s\n```\n\n' \
+    printf '### %s\n\n%s\n\n![%s](../results/gallery/%s.png)\n\n```sh\ncapsulemap figure%s\n```\n\n' \
         "$heading" "$words" "$heading" "$name" "$shown"
     if [ "$draw" = yes ]; then
         "$program" figure "$@" --name "$name" --folder results/gallery --formats png --overwrite >&2
@@ -85,7 +85,7 @@ fi
         best best-maps paper/best-maps.png
     kind sensitivity "Sobol indices: which of the quantities that are drawn the variance of outputs comes from." \
         sensitivity sensitivity sensitivity/sensitivity.png
-    printf '## What can be set\n\nThe same options are keys of `[[figures]]` in a study; [studies/README.md](../studies/README.md) lists them.\n\n'
+    printf '## What can be set\n\nThe same options are keys of `[[figures]]` in a study; [the study file](study/figures.md) lists them.\n\n'
     setting "Limits, units, colours, contours and words" "Speeds beyond the limits have the colour of their end, and the bar says so by an arrow." \
         limits results/overview/overview.h5 --kind map --of progression_speed --x omega --y p_d \
         --limits "progression_speed=-5 mm/s,10 mm/s" --unit omega=Hz --contours progression_speed=0 \

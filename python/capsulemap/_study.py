@@ -21,7 +21,7 @@ Keep = Union[str, "os.PathLike[str]", None]
 
 
 class Study:
-    """A checked study: what to compute, cases, branches, or both (studies/README.md)."""
+    """A checked study: what to compute, cases, branches, or both (docs/study/file.md)."""
 
     def __init__(self, study: _capsulemap.Study) -> None:
         self._study = study

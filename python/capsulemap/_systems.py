@@ -155,7 +155,7 @@ class Capsule(_Parametric):
 
 
 class Oscillator(_Parametric):
-    """An oscillator that is given as text: rates, events, switches, friction, pulses and outputs (systems/README.md)."""
+    """An oscillator that is given as text: rates, events, switches, friction, pulses and outputs (docs/systems.md)."""
 
     __slots__ = ("_name", "_tables")
     _name: str

@@ -57,7 +57,9 @@ fn listed(name: &str, mut known: Vec<&str>) -> String {
     known
         .sort_by_key(|candidate| (!candidate.contains(name), damerau_levenshtein(name, candidate)));
     let nearest = known[..NEAREST_LISTED].join(", ");
-    format!("{nearest} and {others} others, which studies/README.md lists")
+    format!(
+        "{nearest} and {others} others, which docs/study/parameters.md and docs/outputs.md list"
+    )
 }
 
 /// Names that a message lists at most, and how many of a longer list.

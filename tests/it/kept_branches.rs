@@ -67,12 +67,12 @@ fn the_cascade_doubles_where_the_motion_does() {
     let doublings: Vec<Point> =
         (0..5).map(|n| kept.points(n, SpecialKind::PeriodDoubling).remove(0)).collect();
     let omegas: Vec<f64> = doublings.iter().map(|it| it.omega).collect();
-    let readme = fs::read_to_string("README.md").expect("README.md");
+    let document = fs::read_to_string("docs/branches.md").expect("the document");
     let digits = [39.798_118_915, 40.208_396_664, 40.310_005_693, 40.332_241_821, 40.337_127_912];
     for (omega, digits) in omegas.iter().zip(digits) {
         assert!((omega - digits).abs() < 2e-9, "{omega}");
         let shown = format!("{omega:.8}");
-        assert!(kept.ran.contains(&shown) && readme.contains(&shown), "{omega}\n{}", kept.ran);
+        assert!(kept.ran.contains(&shown) && document.contains(&shown), "{omega}\n{}", kept.ran);
     }
     // Beside each of the first three the motion from its section point repeats after k cycles, and 2 k.
     for (n, pair) in omegas.windows(2).take(3).enumerate() {

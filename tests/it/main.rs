@@ -57,6 +57,7 @@ mod interrupted_runs;
 mod kept_branches;
 mod kept_searches;
 mod killed_calls;
+mod links;
 mod manifolds;
 mod map_boundaries;
 mod margins;

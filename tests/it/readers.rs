@@ -209,8 +209,8 @@ fn what_xarray_adds_to_a_file_is_drawn_on_request() {
     let dir = WorkDir::new();
     dir.put("hysteresis.toml", CHAOS);
     dir.run(&["sweep", "hysteresis.toml", "--no-figures"]).done();
-    let readme = fs::read_to_string("studies/README.md").expect("it is there");
-    let mut blocks = readme.split("```python\n").skip(1).filter_map(|it| it.split("```").next());
+    let document = fs::read_to_string("docs/results.md").expect("it is there");
+    let mut blocks = document.split("```python\n").skip(1).filter_map(|it| it.split("```").next());
     let script = blocks.find(|it| it.contains("speed_per_power")).expect("it is there");
     let done = Command::new(&python).args(["-c", script]).current_dir(dir.folder()).output();
     let done = done.expect("python runs");

@@ -1,4 +1,4 @@
-//! What the README claims is run: its commands, its study and its Python.
+//! What the README and the pages of the book claim is run: their commands, their studies and their Python.
 
 use std::path::Path;
 use std::process::Command;
@@ -11,11 +11,16 @@ use capsulemap::study::{DrawingKind, Study};
 use super::explorer::Explorer;
 
 const README: &str = include_str!("../../README.md");
+const EXPLORE: &str = include_str!("../../docs/explore.md");
+const FIRST_STEPS: &str = include_str!("../../docs/first-steps.md");
+const LONG_RUNS: &str = include_str!("../../docs/long-runs.md");
+const MAPS: &str = include_str!("../../docs/maps.md");
+const MODEL: &str = include_str!("../../docs/model.md");
 
-/// The blocks of the README in `language`.
-fn blocks(language: &str) -> Vec<&'static str> {
+/// The blocks of a document in `language`.
+fn blocks(document: &'static str, language: &str) -> Vec<&'static str> {
     let fence = format!("```{language}\n");
-    README
+    document
         .split(&fence)
         .skip(1)
         .map(|rest| rest.split("```").next().expect("a block has an end").trim_end())
@@ -47,12 +52,13 @@ fn clone() -> tempfile::TempDir {
 
 #[test]
 fn the_main_job_leaves_a_file_and_its_figures() {
-    let command = blocks("sh")[0];
+    let command = blocks(README, "sh")[0];
+    assert_eq!(command, blocks(FIRST_STEPS, "sh")[0]);
     assert_eq!(command, "scripts/setup.sh && cargo run --release -- sweep studies/overview.toml");
     let folder = clone();
     let summary = capsulemap(&["sweep", "studies/overview.toml"], folder.path());
     assert!(summary.contains("34 221 cases"), "{summary}");
-    assert!(README.contains("34 221 cases"));
+    assert!(README.contains("34 221 cases") && FIRST_STEPS.contains("34 221 cases"));
     let results = folder.path().join("results/overview");
     for figure in ["bifurcation", "speed", "period", "trade-off"] {
         for extension in ["png", "svg", "pdf"] {
@@ -67,10 +73,10 @@ fn the_main_job_leaves_a_file_and_its_figures() {
     a_click_shows_a_motion(folder.path());
 }
 
-/// Explores the results of the main job by the command of the README.
+/// Explores the results of the main job by the command of docs/explore.md.
 fn a_click_shows_a_motion(folder: &Path) {
-    let explore = blocks("sh").into_iter().find(|block| block.starts_with("capsulemap explore"));
-    let words: Vec<String> = split(explore.expect("the command"));
+    let words: Vec<String> = split(blocks(EXPLORE, "sh")[0]);
+    assert_eq!(words[..2], ["capsulemap", "explore"]);
     let mut command = Command::new(env!("CARGO_BIN_EXE_capsulemap"));
     command.args(&words[1..]).arg("--no-browser").current_dir(folder);
     let explorer = Explorer::begun(command).opened();
@@ -84,7 +90,7 @@ fn no_study_draws_over_a_picture_that_git_keeps() {
     let kept = String::from_utf8(kept.stdout).expect("names");
     // Outside a clone there are none.
     for name in kept.lines().filter(|name| !name.is_empty()) {
-        assert!(name == "results/README.md" || name.starts_with("results/gallery/"), "{name}");
+        assert!(name.starts_with("results/gallery/"), "{name}");
     }
     for study in std::fs::read_dir("studies").expect("the studies") {
         let path = study.expect("an entry").path();
@@ -95,12 +101,12 @@ fn no_study_draws_over_a_picture_that_git_keeps() {
 #[test]
 fn the_tests_are_run_as_the_readme_says() {
     let check = std::fs::read_to_string("scripts/check.sh").expect("the list of checks");
-    assert!(check.contains(blocks("sh")[1]));
+    assert!(check.contains(blocks(README, "sh")[1]));
 }
 
 #[test]
-fn the_case_of_the_readme_is_the_one_of_fig_6() {
-    let words: Vec<String> = split(blocks("sh")[3]);
+fn the_case_of_the_first_steps_is_the_one_of_fig_6() {
+    let words: Vec<String> = split(blocks(FIRST_STEPS, "sh")[1]);
     let words: Vec<&str> = words.iter().skip(1).map(String::as_str).collect();
     let printed = capsulemap(&words, Path::new("."));
     let object: serde_json::Value = serde_json::from_str(&printed).expect("JSON");
@@ -109,9 +115,10 @@ fn the_case_of_the_readme_is_the_one_of_fig_6() {
 }
 
 #[test]
-fn the_experiment_of_the_readme_finds_its_rig() {
+fn the_experiment_of_the_book_finds_its_rig() {
     let folder = clone();
-    let said: Vec<String> = blocks("bash")[0]
+    let experiment = include_str!("../../docs/experiment.md");
+    let said: Vec<String> = blocks(experiment, "bash")[0]
         .lines()
         .map(|line| {
             let words = split(line);
@@ -140,9 +147,9 @@ fn split(line: &str) -> Vec<String> {
 }
 
 #[test]
-fn the_study_of_the_readme_shows_hysteresis() {
+fn the_study_of_the_book_shows_hysteresis() {
     let kept = std::fs::read_to_string("studies/hysteresis.toml").expect("the study");
-    let shown = Study::parse("README.md", blocks("toml")[0]).expect("a study");
+    let shown = Study::parse("maps.md", blocks(MAPS, "toml")[0]).expect("a study");
     let kept = Study::parse("studies/hysteresis.toml", &kept).expect("a study");
     assert_eq!(Study { text: String::new(), ..shown }, Study { text: String::new(), ..kept });
 
@@ -166,14 +173,16 @@ fn the_study_of_the_readme_shows_hysteresis() {
     read_in_python(folder.path());
 }
 
-/// Runs the README's Python where a Python with the readers is at hand.
+/// Runs the Python of docs/results.md where a Python with the readers is at hand.
 fn read_in_python(folder: &Path) {
     let Ok(python) = std::env::var("CAPSULEMAP_PYTHON") else {
-        println!("SKIPPED: the README's Python (CAPSULEMAP_PYTHON names no Python with xarray)");
+        println!(
+            "SKIPPED: the Python of docs/results.md (CAPSULEMAP_PYTHON names no Python with xarray)"
+        );
         return;
     };
     let output = Command::new(python)
-        .args(["-c", blocks("python")[0]])
+        .args(["-c", blocks(include_str!("../../docs/results.md"), "python")[0]])
         .current_dir(folder)
         .output()
         .expect("python starts");
@@ -206,7 +215,9 @@ fn the_reference_of_studies_names_every_parameter_and_output() {
     use capsulemap::capsule::Output;
     use capsulemap::capsule::Parameter;
     use capsulemap::orbit::Protocol;
-    let reference = include_str!("../../studies/README.md");
+    let pages = ["study/parameters", "study/protocol", "family", "outputs"];
+    let read = |page| std::fs::read_to_string(format!("docs/{page}.md")).expect("a page");
+    let reference = pages.map(read).join("\n");
     let parameters = Parameter::ALL.iter().map(|parameter| parameter.symbol());
     for name in parameters.chain(Output::ALL.iter().map(|output| output.name())) {
         assert!(reference.contains(&format!("`{name}`")), "{name}");
@@ -229,19 +240,19 @@ fn the_reference_of_studies_names_every_parameter_and_output() {
 }
 
 #[test]
-fn the_table_of_the_readme_is_the_tested_one() {
+fn the_table_of_the_model_is_the_tested_one() {
     let tested = include_str!("../../crates/engine/tests/it/paper.rs");
     for digits in ["10.298005", "25.39085", "0.008345", "1.119443", "0.528927", "3.575601"] {
-        assert!(README.contains(digits) && tested.contains(digits), "{digits}");
+        assert!(MODEL.contains(digits) && tested.contains(digits), "{digits}");
     }
 }
 
 #[test]
 fn the_gallery_is_as_its_script_writes_it_and_shows_every_kind() {
-    let (page, root) = ("results/README.md", Path::new(env!("CARGO_MANIFEST_DIR")));
+    let (page, root) = ("docs/gallery.md", Path::new(env!("CARGO_MANIFEST_DIR")));
     let folder = clone();
     let script = "scripts/gallery.sh";
-    for part in ["scripts", "results"] {
+    for part in ["scripts", "docs"] {
         std::fs::create_dir_all(folder.path().join(part)).expect("a folder");
     }
     std::fs::copy(root.join(script), folder.path().join(script)).expect("the script");
@@ -256,16 +267,14 @@ fn the_gallery_is_as_its_script_writes_it_and_shows_every_kind() {
         assert!(kept.contains(&format!("kind = \"{name}\"")), "{name}");
     }
     for picture in kept.split("](").skip(1).filter_map(|it| it.split(')').next()) {
-        let picture = picture.trim_start_matches("../");
-        let places = [root.join("results").join(picture), root.join(picture)];
-        assert!(places.iter().any(|place| place.exists()), "{picture}");
+        assert!(root.join("docs").join(picture).exists(), "{picture}");
     }
 }
 
 #[test]
-fn the_defaults_of_the_readme_are_those_of_the_program() {
+fn the_defaults_of_the_model_are_those_of_the_program() {
     let cells = |line: &'static str| line.trim_matches('|').split('|').map(str::trim);
-    let lines: Vec<&str> = README.lines().collect();
+    let lines: Vec<&str> = MODEL.lines().collect();
     let at = lines.iter().position(|line| line.starts_with("| m1 |")).expect("a table");
     let (names, values) = (cells(lines[at]), cells(lines[at + 2]));
     let mut count = 0;
@@ -280,9 +289,9 @@ fn the_defaults_of_the_readme_are_those_of_the_program() {
 
 #[test]
 fn the_commands_of_a_long_run_do_what_is_said_of_them() {
-    let lines = blocks("sh").into_iter().find(|block| block.contains("--dry-run"));
+    let lines = blocks(LONG_RUNS, "sh").into_iter().find(|block| block.contains("--dry-run"));
     let folder = tempfile::tempdir().expect("a folder");
-    let study = blocks("toml")[0].replace("points = 351", "points = 15");
+    let study = blocks(MAPS, "toml")[0].replace("points = 351", "points = 15");
     std::fs::write(folder.path().join("long.toml"), study).expect("a study");
     let mut said = String::new();
     for line in lines.expect("the commands").lines() {

@@ -352,7 +352,7 @@ fn what_a_study_file_cannot_hold_is_reported() {
     let inherit = Some(Inherit { axis: 0, directions: Vec::new() });
     let case_set = CaseSet::Grid(Grid { axes, inherit });
     assert!(ran(Study { case_set, ..Study::default() }).contains("axes: a study file cannot hold"));
-    // `[basin]` is for studies whose cases differ in their starts alone, and its `refine` for grids: see studies/README.md.
+    // `[basin]` is for studies whose cases differ in their starts alone, and its `refine` for grids: see docs/study/basin.md.
     let message = ran(Study { early_decision: false, ..Study::default() });
     assert!(message.contains("basin.early_decision: a study file cannot hold false"), "{message}");
     let axes = vec![Axis::of(Coordinate::Parameter(Parameter::Pd.into()), vec![1.0, 2.0])];

@@ -1,6 +1,6 @@
 //! Oscillators given as text: a table of rates, events, switches, friction and pulses, from which everything else follows.
 //!
-//! `systems/README.md` says what a text may have. [`read`] makes a [`Text`] of it, or tells all its faults; [`program::Program`] has the
+//! `docs/systems.md` says what a text may have. [`read`] makes a [`Text`] of it, or tells all its faults; [`program::Program`] has the
 //! instructions for its values, and [`system::TextSystem`] is the system that the engine moves.
 //!
 //! ```

@@ -94,7 +94,7 @@ fn the_equation_as_printed_differs() {
             printed.outputs[Output::EnergyResidual],
         );
         if i == 0 {
-            // As the README says.
+            // As docs/model.md says.
             assert_eq!(shown_as(speed(&printed), "3.75"), "3.75");
             assert!(printed.outputs[Output::EnergyResidual].abs() > 0.05);
         }

@@ -21,7 +21,7 @@ use capsulemap_models::motion::Setting;
 
 /// Capsules that are drawn.
 const CAPSULES: usize = 400;
-/// Cycles with derivatives that may be computed, as `studies/README.md` says.
+/// Cycles with derivatives that may be computed, as `docs/attractors.md` says.
 const MOST_CYCLES: u64 = 3000;
 
 /// Counts the cycles with derivatives.

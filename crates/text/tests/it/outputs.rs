@@ -82,7 +82,7 @@ fn a_model_has_no_coordinates_beside_those_of_its_text() {
     assert_eq!(omega.symbol(), "omega");
     assert_eq!(parameters.period_of_drive(), Some(2.0 * PI / 77.91));
     assert_eq!(capsule.impact_surface().map(|it| it.symbol()), Some("delta"));
-    // The speed that the README has, and what the events of the orbit tell.
+    // The speed that docs/model.md has, and what the events of the orbit tell.
     assert!((1e3 * output(&orbit, "speed_of_x2") - 10.298_005).abs() < 1e-6);
     assert_eq!(output(&orbit, "impact_per_cycle"), 1.0);
     let rest = output(&orbit, "rest_share_of_f");
