@@ -98,10 +98,10 @@ pub fn signals_of(recording: &Recording) -> Result<(Vec<f64>, Vec<Measured>), St
     let times = recording.required("t");
     let times: Vec<f64> = times.iter().map(|time| time - times[0]).collect();
     let measured = [Signal::X2, Signal::R, Signal::X1, Signal::Y1, Signal::Y2, Signal::A1];
-    let found: Vec<(Signal, Vec<f64>)> = measured
-        .into_iter()
-        .filter_map(|signal| Some((signal, recording.column(signal.name())?.to_vec())))
-        .collect();
+    let mut found = Vec::new();
+    for signal in measured {
+        found.extend(recording.whole(signal.name())?.map(|values| (signal, values.to_vec())));
+    }
     if found.is_empty() {
         let names = measured.map(Signal::name).join(", ");
         return Err(format!("has no signal of the motion; expected one of {names}"));
@@ -128,8 +128,8 @@ pub fn compare(
     let period = case.parameters.drive_period();
     let sampling = recording.sampling();
     check_span(&times, &sampling, period)?;
-    let driven = recording.column("drive").or(recording.column("current"));
-    let harmonic = driven.map(|values| harmonic(&times, values)).transpose()?;
+    let driven = recording.sensed("drive").or(recording.sensed("current"));
+    let harmonic = driven.map(|it| harmonic(&it.at(&times), &it.values)).transpose()?;
     let settled = Settled::new(case, protocol)?;
     let cycle = harmonic.as_ref().map_or(period, |it| TAU / it.omega.value);
     let record = Record { times: &times, signals: &signals, period, cycle };
@@ -143,7 +143,7 @@ pub fn compare(
         Some(harmonic) => {
             let turned = record.beside(&settled.at_phase(phase + PI)?, times.len())?;
             let may_be_inverted = size(&turned) < TURNED * size(&differences);
-            let is_force = recording.column("drive").is_some();
+            let is_force = recording.sensed("drive").is_some();
             Some(Drive { harmonic, is_force, may_be_inverted })
         }
         None => None,

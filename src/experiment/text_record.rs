@@ -40,10 +40,10 @@ impl TextRecord {
     pub fn new(recording: &Recording, case: &Case) -> Result<TextRecord, String> {
         let model = case.parameters.model();
         let times = recording.required("t");
-        let states = model.coordinates.iter().enumerate();
-        let states = states.filter_map(|(place, it)| Some((place, recording.column(it.name)?)));
-        let states: Vec<(usize, Vec<f64>)> =
-            states.map(|(place, values)| (place, values.to_vec())).collect();
+        let mut states = Vec::new();
+        for (place, it) in model.coordinates.iter().enumerate() {
+            states.extend(recording.whole(it.name)?.map(|values| (place, values.to_vec())));
+        }
         if states.is_empty() {
             return Err(no_state(model, &recording.others));
         }
@@ -88,7 +88,7 @@ impl TextRecord {
 
     /// What makes its `recording` doubtful, in sentences.
     pub fn doubts(&self, recording: &Recording) -> Vec<String> {
-        let mut doubts = Vec::new();
+        let mut doubts = recording.notes.clone();
         if !recording.others.is_empty() {
             let (others, names) = (recording.others.join(", "), names(self.parameters.model()));
             doubts.push(format!("left out: {others}; the states are {names}"));
