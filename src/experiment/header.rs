@@ -33,8 +33,6 @@ pub(super) struct Table<'t> {
     pub cells: Option<usize>,
     /// The lines before the rows.
     pub before: Vec<Line<'t>>,
-    /// Whether any known column was found.
-    pub is_known: bool,
 }
 
 /// How well a line fits as a header; more is better.
@@ -95,7 +93,6 @@ impl<'t> Search<'_, 't> {
             found,
             data: line.next,
             before: Vec::new(),
-            is_known: true,
         };
         let mut rows = place + 1;
         if table.found.iter().any(|it| it.lacks_unit())
@@ -201,16 +198,7 @@ impl<'t> Search<'_, 't> {
                 .next();
         }
         let at = self.lines[place].at;
-        Some(Table {
-            delimiter,
-            header: Vec::new(),
-            at,
-            found,
-            data: at,
-            cells: None,
-            before,
-            is_known: true,
-        })
+        Some(Table { delimiter, header: Vec::new(), at, found, data: at, cells: None, before })
     }
 
     /// The table whose header is the first line that is no comment.
@@ -229,7 +217,6 @@ impl<'t> Search<'_, 't> {
             found: Vec::new(),
             data: line.map_or(text.len(), |it| it.next),
             before: Vec::new(),
-            is_known: false,
         }
     }
 }

@@ -55,7 +55,7 @@ impl HeaderMessages<'_> {
     /// That a required column is not there.
     pub fn missing(&self, column: Column) -> String {
         let (name, example) = (column.name, example(column));
-        let columns = columns_of(&self.header);
+        let columns = columns_of(self.header);
         let unit = column.dimension.unit();
         let option = match (self.has_options, column.is_times() && column.dimension == Dimension::Time) {
             (false, _) => String::new(),
