@@ -225,8 +225,8 @@ impl Fit {
         let period = case.parameters.drive_period();
         let sampling = recording.sampling();
         check_span(&times, &sampling, period).map_err(|why| Failure::of_file(path, why))?;
-        for (signal, values) in &signals {
-            varies(signal.name(), values).map_err(|why| Failure::of_file(path, why))?;
+        for (signal, sensed) in &signals {
+            varies(signal.name(), &sensed.values).map_err(|why| Failure::of_file(path, why))?;
         }
         let drive = recording.sensed("drive").or(recording.sensed("current"));
         let drive = drive.ok_or_else(|| {
@@ -241,8 +241,7 @@ impl Fit {
         let mut warnings = warnings_of_record(path, &sampling, &drive, omega, span)?;
         warnings.extend(left_out(&recording).iter().map(|it| format!("{}: {it}", printable(path))));
         let count = times.partition_point(|time| *time <= span);
-        let signals =
-            signals.into_iter().map(|(signal, values)| (signal, values[..count].to_vec()));
+        let signals = signals.into_iter().map(|(signal, sensed)| (signal, sensed.first(count)));
         let recorded = Recorded {
             parameters: case.parameters,
             times: times[..count].to_vec(),

@@ -7,7 +7,7 @@ use super::agreement::{Difference, Doubt, advances};
 use super::drive_phase::{Harmonic, harmonic};
 use super::progression::{Progression, own_progression, progression};
 use super::recorded_period::period_of;
-use super::recording::{Recording, Sampling};
+use super::recording::{Recording, Sampling, Sensed};
 use super::settled_motion::{Settled, TOLERANCE};
 use super::simulated_span::check_span;
 use super::spikes::{Spikes, contact_period, contacts, per_cycle, spikes};
@@ -89,7 +89,7 @@ impl Drive {
 }
 
 /// A signal that was measured, with its values [SI].
-pub type Measured = (Signal, Vec<f64>);
+pub type Measured = (Signal, Sensed);
 
 /// The signals of a recording, which may have any of them, over the time from its first sample.
 ///
@@ -100,7 +100,7 @@ pub fn signals_of(recording: &Recording) -> Result<(Vec<f64>, Vec<Measured>), St
     let measured = [Signal::X2, Signal::R, Signal::X1, Signal::Y1, Signal::Y2, Signal::A1];
     let mut found = Vec::new();
     for signal in measured {
-        found.extend(recording.whole(signal.name())?.map(|values| (signal, values.to_vec())));
+        found.extend(recording.sensed(signal.name()).map(|sensed| (signal, sensed.clone())));
     }
     if found.is_empty() {
         let names = measured.map(Signal::name).join(", ");
@@ -125,6 +125,9 @@ pub fn compare(
     protocol: &Protocol,
 ) -> Result<Comparison, String> {
     let (times, signals) = signals_of(recording)?;
+    for (signal, _) in &signals {
+        recording.whole(signal.name())?;
+    }
     let period = case.parameters.drive_period();
     let sampling = recording.sampling();
     check_span(&times, &sampling, period)?;
@@ -193,7 +196,7 @@ impl Record<'_> {
     fn difference(&self, measured: &Measured, mut simulated: Vec<f64>) -> Difference {
         let (signal, recorded) = measured;
         let times = &self.times[..simulated.len()];
-        let recorded = recorded[..simulated.len()].to_vec();
+        let recorded = recorded.values[..simulated.len()].to_vec();
         if advances(*signal) {
             let first = times.iter().take_while(|time| **time < self.period).count().max(1);
             let offset = mean(&recorded[..first]) - mean(&simulated[..first]);

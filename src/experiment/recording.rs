@@ -85,7 +85,25 @@ pub struct Sensed {
     pub values: Vec<f64>,
 }
 
+impl From<Vec<f64>> for Sensed {
+    /// A value in each row.
+    fn from(values: Vec<f64>) -> Sensed {
+        Sensed { rows: (0..values.len()).collect(), values }
+    }
+}
+
 impl Sensed {
+    /// The values in the first rows, so many.
+    pub fn first(&self, rows: usize) -> Sensed {
+        let count = self.rows.partition_point(|row| *row < rows);
+        Sensed { rows: self.rows[..count].to_vec(), values: self.values[..count].to_vec() }
+    }
+
+    /// Pairs of its values and those of its rows in something that has a value in each row.
+    pub fn beside<'s, T>(&'s self, all: &'s [T]) -> impl Iterator<Item = (f64, &'s T)> {
+        self.rows.iter().zip(&self.values).map(|(row, value)| (*value, &all[*row]))
+    }
+
     /// The times of its values, by those of all rows.
     pub fn at(&self, times: &[f64]) -> Vec<f64> {
         self.rows.iter().map(|row| times[*row]).collect()

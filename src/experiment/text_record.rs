@@ -4,7 +4,7 @@ use capsulemap_text::described::period;
 
 use super::course::varies;
 use super::history::Channel;
-use super::recording::{GAP, Recording};
+use super::recording::{GAP, Recording, Sensed};
 use super::simulated_span::{check_span, check_wait};
 use crate::description::{Description, Parameters, State};
 use crate::motion::Case;
@@ -29,8 +29,8 @@ pub struct TextRecord {
     pub first: f64,
     /// Times since the first sample [s], the first of which is zero.
     pub times: Vec<f64>,
-    /// The states that were recorded by their places, with their values at those times.
-    pub states: Vec<(usize, Vec<f64>)>,
+    /// The states that were recorded by their places, with their values at those of the times at which they were.
+    pub states: Vec<(usize, Sensed)>,
 }
 
 impl TextRecord {
@@ -42,13 +42,13 @@ impl TextRecord {
         let times = recording.required("t");
         let mut states = Vec::new();
         for (place, it) in model.coordinates.iter().enumerate() {
-            states.extend(recording.whole(it.name)?.map(|values| (place, values.to_vec())));
+            states.extend(recording.sensed(it.name).map(|sensed| (place, sensed.clone())));
         }
         if states.is_empty() {
             return Err(no_state(model, &recording.others));
         }
-        for (place, values) in &states {
-            varies(model.coordinates[*place].name, values)?;
+        for (place, sensed) in &states {
+            varies(model.coordinates[*place].name, &sensed.values)?;
         }
         let first = times[0];
         let times: Vec<f64> = times.iter().map(|time| time - first).collect();
@@ -73,9 +73,9 @@ impl TextRecord {
             ));
         }
         self.times.truncate(count);
-        for (place, values) in &mut self.states {
-            values.truncate(count);
-            varies(self.parameters.model().coordinates[*place].name, values)?;
+        for (place, sensed) in &mut self.states {
+            *sensed = sensed.first(count);
+            varies(self.parameters.model().coordinates[*place].name, &sensed.values)?;
         }
         Ok(self)
     }
