@@ -9,6 +9,7 @@ use super::compare_report::{as_json, explained, told_of};
 use super::experiment_figures::{comparison_plot, text_comparison_plot};
 use super::failure::Failure;
 use super::files;
+use super::recording_form::RecordingForm;
 use super::terminal::print;
 use super::text_compare;
 use super::varied::{Varied, threads, varied};
@@ -71,6 +72,8 @@ pub struct Compare {
     /// Parameters that might explain the difference, with their bounds.
     #[arg(long, value_name = "NAME=FROM..TO,...")]
     explain: Vec<String>,
+    #[command(flatten)]
+    form: RecordingForm,
     /// The overlay, without an extension: PNG, PDF and the data as CSV are written.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -101,7 +104,7 @@ impl Compare {
             let (case, protocol) = asked?;
             return self.compare_text(&case, &protocol);
         }
-        let recording = files::motion(&self.recording, default_model())?;
+        let recording = files::motion(&self.recording, default_model(), &self.form)?;
         let (case, protocol) = asked?;
         let comparison = compare(&recording, &case, &protocol)
             .map_err(|why| Failure::of_file(&self.recording, why))?;
@@ -118,11 +121,11 @@ impl Compare {
         }
         let left_out = left_out(&recording);
         if self.json {
-            let object = as_json(&comparison, &explanations, left_out.as_deref());
+            let object = as_json(&comparison, &explanations, &left_out);
             return print(&format!("{object:#}\n"));
         }
         let mut text = told_of(&comparison);
-        text.extend(left_out.map(|it| format!("warning: {it}\n")));
+        text.extend(left_out.iter().map(|it| format!("warning: {it}\n")));
         for (it, varied) in explanations.iter().zip(&choices) {
             text += &explained(&comparison, it, varied);
         }
@@ -138,7 +141,7 @@ impl Compare {
             let why = "--explain: is for the capsule; `capsulemap fit` finds parameters of an oscillator that is given as text";
             return Err(Failure::request(why));
         }
-        let recording = files::motion(&self.recording, case.parameters.model())?;
+        let recording = files::motion(&self.recording, case.parameters.model(), &self.form)?;
         let of_file = |why| Failure::of_file(&self.recording, why);
         let record = TextRecord::new(&recording, case).map_err(of_file)?;
         let doubts = record.doubts(&recording);

@@ -226,10 +226,11 @@ pub fn explained(comparison: &Comparison, it: &Explanation, varied: &[Varied]) -
 pub fn as_json(
     it: &Comparison,
     explanations: &[Explanation],
-    left_out: Option<&str>,
+    left_out: &[String],
 ) -> serde_json::Value {
     let lines = told_of(it);
-    let warnings: Vec<&str> = warnings_in(&lines).chain(left_out).collect();
+    let warnings: Vec<&str> =
+        warnings_in(&lines).chain(left_out.iter().map(String::as_str)).collect();
     let drive = it.drive.as_ref();
     let force = drive.filter(|it| it.is_force).map(|it| it.harmonic.amplitude);
     json!({

@@ -284,10 +284,12 @@ fn measured(path: &Path, archive: &Archive) -> Result<Measured, Failure> {
     });
     let known: Vec<Column> = known.collect();
     let recording = files::recording(path, &known, 1)?;
-    let columns = known.iter();
-    let columns =
-        columns.filter_map(|it| Some((it.name.to_owned(), recording.column(it.name)?.to_vec())));
-    Ok(Measured { columns: columns.collect() })
+    let mut columns = Vec::new();
+    for Column { name, .. } in known {
+        let values = recording.whole(name).map_err(|why| Failure::of_file(path, why))?;
+        columns.extend(values.map(|it| (name.to_owned(), it.to_vec())));
+    }
+    Ok(Measured { columns })
 }
 
 /// The dimension of a quantity of figures, or of a variable of the file.

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use super::failure::Failure;
+use super::recording_form::RecordingForm;
 use crate::description::Description;
-use crate::experiment::{Column, Recording, columns_of_motion};
+use crate::experiment::{Column, FileForm, Recording, columns_of_motion, decoded};
 use crate::quantity::printable::printable;
 use crate::quantity::{Dimension, parse_quantity};
 use crate::store::{self, Pipes};
@@ -19,32 +20,37 @@ pub fn text(path: &Path) -> Result<String, Failure> {
     let shown = printable(path);
     let bytes = store::read_input(path, Pipes::OfShell)
         .map_err(|error| Failure::request(format!("{shown}: cannot be read: {error}")))?;
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;
-        Failure::request(format!("{shown}: line {line}: is not text in UTF-8"))
+    decoded(bytes).map_err(|line| {
+        let why = "is not text in UTF-8, UTF-16 or Latin-1";
+        Failure::request(format!("{shown}: line {line}: {why}"))
     })
 }
 
 /// The recording in a file, with the columns that are known.
 pub fn recording(path: &Path, known: &[Column], least: usize) -> Result<Recording, Failure> {
-    recording_in(&text(path)?, path, known, least)
+    let name = path.to_string_lossy();
+    Recording::read(&name, &text(path)?, known, least).map_err(Failure::request)
 }
 
-/// The recording in the text of a file.
-pub fn recording_in(
-    text: &str,
+/// The same where options say what form the file has.
+pub fn recording_as(
     path: &Path,
     known: &[Column],
     least: usize,
+    form: &FileForm,
 ) -> Result<Recording, Failure> {
     let name = path.to_string_lossy();
-    Recording::read(&name, text, known, least).map_err(Failure::request)
+    Recording::read_as(&name, &text(path)?, known, least, Some(form)).map_err(Failure::request)
 }
 
 /// The recording of a motion, with the columns that one of this model may have.
-pub fn motion(path: &Path, model: &'static Description) -> Result<Recording, Failure> {
-    recording(path, &columns_of_motion(model), LEAST_ROWS)
+pub fn motion(
+    path: &Path,
+    model: &'static Description,
+    form: &RecordingForm,
+) -> Result<Recording, Failure> {
+    let known = columns_of_motion(model);
+    recording_as(path, &known, LEAST_ROWS, &form.of(&known)?)
 }
 
 /// Whether standard output is asked for in place of a file.

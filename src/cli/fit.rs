@@ -9,6 +9,7 @@ use super::failure::Failure;
 use super::files;
 use super::fit_report::{as_json, table, warnings as warnings_of};
 use super::identify_report::shown;
+use super::recording_form::RecordingForm;
 use super::terminal::print;
 use super::varied::{Varied, threads, varied};
 use crate::capsule::CapsuleParameters as _;
@@ -19,8 +20,8 @@ use crate::experiment::identification::parameter_file;
 use crate::experiment::least_squares::Loss;
 use crate::experiment::simulated_span::check_span;
 use crate::experiment::{
-    Constant, Effort, Free, Frequencies, Harmonic, Identified, MotionFit, Recorded, Recording,
-    Sampling, TextRecord, Weights, fit_motion, fit_text, harmonic, left_out,
+    Constant, Effort, Free, Frequencies, Harmonic, Identified, MotionFit, Recorded, Sampling,
+    TextRecord, Weights, fit_motion, fit_text, harmonic, left_out,
 };
 use crate::motion::Case;
 use crate::of::default_model;
@@ -73,6 +74,8 @@ pub struct Fit {
     /// Starts of the search within the bounds, the first at the values of the study.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=1000))]
     starts: u64,
+    #[command(flatten)]
+    form: RecordingForm,
     /// Let outliers count little.
     #[arg(long)]
     robust: bool,
@@ -174,7 +177,7 @@ impl Fit {
                 );
                 return Err(Failure::of_file(study, why));
             }
-            let recording = files::motion(path, model)?;
+            let recording = files::motion(path, model, &self.form)?;
             let of_file = |why| Failure::of_file(path, why);
             let record = TextRecord::new(&recording, &case).map_err(of_file)?;
             let doubts = record.doubts(&recording).into_iter();
@@ -216,28 +219,29 @@ impl Fit {
         index: usize,
     ) -> Result<(Recorded, Vec<String>), Failure> {
         let path = &self.recordings[index];
-        let recording = files::motion(path, default_model())?;
+        let recording = files::motion(path, default_model(), &self.form)?;
         let case = self.case_of(cases, index)?;
         let (times, signals) = signals_of(&recording).map_err(|why| Failure::of_file(path, why))?;
         let period = case.parameters.drive_period();
         let sampling = recording.sampling();
         check_span(&times, &sampling, period).map_err(|why| Failure::of_file(path, why))?;
-        for (signal, values) in &signals {
-            varies(signal.name(), values).map_err(|why| Failure::of_file(path, why))?;
+        for (signal, sensed) in &signals {
+            varies(signal.name(), &sensed.values).map_err(|why| Failure::of_file(path, why))?;
         }
-        let drive = drive(&recording).ok_or_else(|| {
+        let drive = recording.sensed("drive").or(recording.sensed("current"));
+        let drive = drive.ok_or_else(|| {
             let why =
                 "has neither a column drive [N] nor current [A], which give the phase of the drive";
             Failure::of_file(path, why)
         })?;
-        let drive = harmonic(&times, drive).map_err(|why| Failure::of_file(path, why))?;
+        let drive = harmonic(&drive.at(&times), &drive.values)
+            .map_err(|why| Failure::of_file(path, why))?;
         let span = self.used_cycles() as f64 * period;
         let omega = case.parameters.frequency();
         let mut warnings = warnings_of_record(path, &sampling, &drive, omega, span)?;
-        warnings.extend(left_out(&recording).map(|it| format!("{}: {it}", printable(path))));
+        warnings.extend(left_out(&recording).iter().map(|it| format!("{}: {it}", printable(path))));
         let count = times.partition_point(|time| *time <= span);
-        let signals =
-            signals.into_iter().map(|(signal, values)| (signal, values[..count].to_vec()));
+        let signals = signals.into_iter().map(|(signal, sensed)| (signal, sensed.first(count)));
         let recorded = Recorded {
             parameters: case.parameters,
             times: times[..count].to_vec(),
@@ -271,10 +275,6 @@ impl Fit {
 fn text_of(case: &Result<Case, Failure>) -> Option<&'static Description> {
     let model = case.as_ref().ok()?.parameters.model();
     model.equations.is_some().then_some(model)
-}
-
-fn drive(recording: &Recording) -> Option<&[f64]> {
-    recording.column("drive").or(recording.column("current"))
 }
 
 /// Warnings of the gaps of a record, and of a frequency that is not surely that of the study, `omega`, over this span.

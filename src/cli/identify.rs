@@ -8,12 +8,12 @@ use super::experiment_figures::evidence_plot;
 use super::failure::Failure;
 use super::files;
 use super::identify_report::{as_json, table};
+use super::recording_form::RecordingForm;
 use super::terminal::print;
 use crate::capsule::Parameter;
 use crate::description;
 use crate::experiment::identification::{Evidence, impossible_rows, parameter_file, remarks};
-use crate::experiment::recording::MOST_TOLD;
-use crate::experiment::{Given, Identified, Recording, Test, identify};
+use crate::experiment::{Column, FileForm, Given, Identified, Recording, Test, identify};
 use crate::figure::plot::{Plot, draw_plot};
 use crate::figure::{Format, Place};
 use crate::quantity::printable::printable;
@@ -66,6 +66,8 @@ pub struct Identify {
     /// Acceleration of gravity.
     #[arg(long, value_name = "ACCELERATION", default_value = "9.81 m/s2")]
     g: String,
+    #[command(flatten)]
+    form: RecordingForm,
     /// The parameter file to write.
     #[arg(long, value_name = "FILE.toml")]
     output: Option<PathBuf>,
@@ -96,10 +98,12 @@ impl Identify {
         if let Some(output) = &self.output {
             files::check_free(output, self.overwrite)?;
         }
+        let columns: Vec<Vec<Column>> = files.iter().map(|it| it.0.columns().to_vec()).collect();
+        let forms = self.form.of_each(&columns)?;
         let mut found = Vec::new();
         let mut failures = Vec::new();
-        for (test, path) in files {
-            match read(test, &path, &given) {
+        for ((test, path), form) in files.into_iter().zip(&forms) {
+            match read(test, &path, &given, form) {
                 Ok(it) => found.push(it),
                 Err(failure) => failures.push(failure),
             }
@@ -220,40 +224,19 @@ fn read_given(
 }
 
 /// Reads a recording and identifies its constants.
-fn read(test: Test, path: &Path, given: &Given) -> Result<Found, Failure> {
-    let text = files::text(path)?;
-    let recording = files::recording_in(&text, path, &test.columns(), test.least_rows())?;
+fn read(test: Test, path: &Path, given: &Given, form: &FileForm) -> Result<Found, Failure> {
+    let recording = files::recording_as(path, &test.columns(), test.least_rows(), form)?;
     let impossible = impossible_rows(test, &recording);
-    if !impossible.is_empty() {
-        let told = impossible.iter().take(MOST_TOLD);
-        let mut faults: Vec<String> = told
-            .map(|(row, why)| format!("{}: line {}: {why}", printable(path), line_of(&text, *row)))
-            .collect();
-        let more = impossible.len() - faults.len();
-        if more > 0 {
-            faults.push(format!("{}: and {more} faults more", printable(path)));
-        }
-        return Err(Failure::requests(&faults));
+    if let Some((row, why)) = impossible.first() {
+        let (line, rows) = (recording.line(*row), impossible.len());
+        let so = match rows {
+            1 => String::new(),
+            rows => format!("; so in {rows} rows, of which this is the first"),
+        };
+        return Err(Failure::of_file(path, format!("line {line}: {why}{so}")));
     }
-    let (identified, evidence) =
+    let (mut identified, evidence) =
         identify(test, &recording, given).map_err(|why| Failure::of_file(path, why))?;
+    identified.iter_mut().for_each(|it| it.notes.extend(recording.notes.iter().cloned()));
     Ok(Found { test, recording, identified, evidence })
-}
-
-/// The line of a row of numbers, counted from 0, in a file with a header, blank lines and comments.
-fn line_of(text: &str, row: usize) -> usize {
-    let lines = text.lines().enumerate();
-    let rows = lines.filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
-    rows.skip(1).nth(row).map_or(0, |(line, _)| line + 1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rows_are_found_among_comments_and_blank_lines() {
-        let text = "# rig\n\npulled_mass [kg]\n0.4\n# again\n\n-0.4\n";
-        assert_eq!([0, 1].map(|row| line_of(text, row)), [4, 7]);
-    }
 }

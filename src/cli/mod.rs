@@ -37,6 +37,7 @@ mod phases;
 mod progress;
 mod ramp_summary;
 mod readable;
+mod recording_form;
 mod report;
 mod scheduler;
 mod sensitivity;

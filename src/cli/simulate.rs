@@ -27,7 +27,7 @@ use crate::study::without_effect::given_without_effect;
 const EXAMPLES: &str = "\
 Examples:
   capsulemap simulate --omega \"20.73 rad/s\" --k2 \"18.96 kN/m\" --json
-  capsulemap simulate --set mu_s=0.4 --start r=-2.5e-3,y2=0.1 --cycles 50
+  capsulemap simulate --set mu_s=0.4,mu_d=0.3 --start r=-2.5e-3,y2=0.1 --cycles 50
   capsulemap simulate --drive square --set duty=0.3 --set p_low=\"-1 N\"
   capsulemap simulate --friction-switching as-printed
   capsulemap simulate --study studies/overview.toml --case 1234
@@ -40,12 +40,12 @@ A number without a unit is in SI. What is not given is as in the paper's Table 1
 #[command(after_help = EXAMPLES)]
 pub struct Simulate {
     /// Take a case of this study, or of the study in this file of results, with its parameters, its start and the study's protocol.
-    #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2",
+    #[arg(long, value_name = "STUDY", conflicts_with_all = ["omega", "p_d", "k2",
         "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles", "max_steps",
         "exponents",
         "friction_switching", "resistance", "drive", "drive_reaction", "release"])]
     study: Option<PathBuf>,
-    /// Its number, counted from 0 with the last axis fastest, as in the reports of failures.
+    /// Its number, counted from 0 with the last axis fastest, as in the reports of failures; a study of one case needs none.
     #[arg(long, requires = "study")]
     case: Option<usize>,
     /// Another model than the capsule, of those that this program knows, as capsule-over-folds; its parameters are given by --set.
@@ -67,8 +67,9 @@ pub struct Simulate {
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     delta: Option<String>,
     /// Any parameter: m1, m2, k1, c, k2, delta, p_d, omega, mu_s, mu_d, v_s, g, c1, c2, and those of the family of capsules, as
-    /// duty, incline or k3 (docs/family.md has all); of another model or a system, those that it has.
-    #[arg(long, value_name = "NAME=VALUE")]
+    /// duty, incline or k3 (docs/family.md has all); of another model or a system, those that it has. Several in a list, or each
+    /// by an option of its own.
+    #[arg(long, value_name = "NAME=VALUE,...")]
     set: Vec<String>,
     /// Start of the motion (r, y1, x2, y2, over folds place, too); at rest by default.
     #[arg(long, value_name = "NAME=VALUE,...", allow_hyphen_values = true)]
@@ -162,7 +163,12 @@ impl Simulate {
     /// A case of a study, from another start if one is given.
     fn studied(&self, path: &Path) -> Result<Request, Failure> {
         let study = read_study_or_results(path)?;
-        let index = self.case.unwrap_or(0);
+        let (index, cases) = (self.case.unwrap_or(0), study.cases());
+        if self.case.is_none() && cases != 1 {
+            let (shown, last) = (printable(path), cases.saturating_sub(1));
+            let why = format!("--case: missing; {shown} has {cases} cases, 0 to {last}");
+            return Err(Failure::request(why));
+        }
         let replay = Replay::new(&study, index).map_err(|error| match error {
             CampaignError::NoCase { index, cases } => {
                 Failure::request(format!("--case {index}: {} has {cases} cases", printable(path)))
@@ -253,7 +259,7 @@ impl Simulate {
                 given.push(Given { option, parameter, text });
             }
         }
-        for (name, text) in pairs("--set", self.set.iter().map(String::as_str), faults) {
+        for (name, text) in pairs("--set", self.set.iter().flat_map(|it| it.split(',')), faults) {
             match model.parameter(name) {
                 Some(parameter) => {
                     given.push(Given { option: format!("--set {name}"), parameter, text });

@@ -7,12 +7,13 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::files;
+use super::recording_form::RecordingForm;
 use super::target::Target;
 use crate::experiment::estimate::significant;
-use crate::experiment::{Recording, Signal, Window, smoothed};
+use crate::experiment::smoothed_parts::{Part, Smoothing, smoothed_parts, window};
+use crate::experiment::{Signal, left_out};
 use crate::of::default_model;
 use crate::quantity::Dimension;
-use crate::quantity::printable::printable;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -20,9 +21,13 @@ Examples:
   capsulemap smooth rig/motion.csv --window \"21 ms\" --order 4 --derivative 1 --output rig/velocities.csv
 
 Savitzky and Golay's method: in the window about each sample a polynomial is fitted, which is read at the sample; at the ends \
-that of the last whole window. The times may be uneven. Each part of the record between two gaps is smoothed by itself. The window \
-has the odd number of samples whose time is nearest to the one given, by the median interval. compare, fit and identify smooth \
+that of the last whole window. The times may be uneven. A gap of more than half the window cuts the record, and so does a change of the \
+interval: each part is smoothed by itself. The window of a part has the odd number of its samples whose time is nearest to the one given; \
+a part with fewer is left out and told, and so is a cell that is empty. compare, fit and identify smooth \
 by themselves where they need it: they take the recording as it is.";
+
+/// So many parts are named.
+const NAMED: usize = 3;
 
 /// Smooth and differentiate the signals of a recording.
 #[derive(Debug, Args)]
@@ -39,6 +44,8 @@ pub struct Smooth {
     /// Which derivative to write; 0 is the signal itself.
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=2))]
     derivative: u64,
+    #[command(flatten)]
+    form: RecordingForm,
     /// The CSV file to write, in SI units; - for standard output.
     #[arg(long, value_name = "FILE.csv")]
     output: PathBuf,
@@ -53,34 +60,46 @@ impl Smooth {
         let length = files::quantity("--window", &self.window, Dimension::Time);
         let length = length.map_err(Failure::request)?;
         let target = Target::of(&self.output, |path| files::check_free(path, self.overwrite))?;
-        let recording = files::motion(&self.recording, default_model())?;
+        let recording = files::motion(&self.recording, default_model(), &self.form)?;
         let sampling = recording.sampling();
-        let window = self.window(length, sampling.interval)?;
+        let how = self.how(length, sampling.interval)?;
         let names = Signal::ALL.map(|it| (it.name(), it.dimension()));
         let known = names.into_iter().chain([("current", Dimension::Current)]);
-        let mut columns = Vec::new();
+        let (mut columns, mut told) = (Vec::new(), vec![sampling.to_string()]);
+        told.extend(left_out(&recording).iter().map(|it| format!("note: {it}")));
         for (name, dimension) in known {
-            if let Some(values) = recording.column(name) {
-                let values = self.smoothed(&recording, values, window)?;
-                columns.push((heading(name, dimension, self.derivative), values));
+            let Some(sensed) = recording.sensed(name) else { continue };
+            let times = sensed.at(recording.required("t"));
+            let parts = smoothed_parts(&times, &sensed.values, how);
+            told.extend(doubts(name, &parts));
+            if parts.iter().all(|it| it.values.is_err()) {
+                let why = parts.first().and_then(|it| it.values.as_ref().err().copied());
+                let why = why.map_or_else(|| "it has no value".to_owned(), |it| it.to_string());
+                let most = parts.iter().map(|it| it.samples.len()).max().unwrap_or(0);
+                let why = format!(
+                    "{name}: no part can be smoothed, the longest of {most} samples: {why}"
+                );
+                return Err(Failure::of_file(&self.recording, why));
             }
+            let column = column(recording.rows(), &sensed.rows, parts);
+            columns.push((heading(name, dimension, self.derivative), column));
         }
         let text = csv(recording.required("t"), &columns);
-        let told = format!(
-            "window: {} samples, {} s; order {}; derivative {}",
-            window.samples,
-            significant(window.samples as f64 * sampling.interval, 4),
-            window.order,
+        let samples = window(how, sampling.interval).samples;
+        told.push(format!(
+            "window: {samples} samples, {} s; order {}; derivative {}",
+            significant(samples as f64 * sampling.interval, 4),
+            how.order,
             self.derivative,
-        );
-        target.put(&text, &[sampling.to_string(), told])
+        ));
+        target.put(&text, &told)
     }
 
-    /// The window whose time is nearest to a length [s], at samples so far apart [s].
-    fn window(&self, length: f64, interval: f64) -> Result<Window, Failure> {
-        let half = (0.5 * (length / interval - 1.0)).round().max(0.0);
-        // A number too large for a size is the largest one.
-        let (samples, order) = ((half as usize).saturating_mul(2) | 1, self.order as usize);
+    /// How signals are smoothed in a window of this length [s]; the median interval is that of the record [s].
+    fn how(&self, length: f64, interval: f64) -> Result<Smoothing, Failure> {
+        let (order, derivative) = (self.order as usize, self.derivative as usize);
+        let how = Smoothing { length, order, derivative };
+        let samples = window(how, interval).samples;
         if order >= samples {
             let why = format!(
                 "--window: {} are {samples} samples, and a polynomial of order {order} needs more than {order}",
@@ -88,32 +107,53 @@ impl Smooth {
             );
             return Err(Failure::request(why));
         }
-        if self.derivative > self.order {
-            let why = format!("--derivative: that of order {} is zero", self.order);
+        if derivative > order {
+            let why = format!("--derivative: that of order {order} is zero");
             return Err(Failure::request(why));
         }
-        Ok(Window { samples, order })
+        Ok(how)
     }
+}
 
-    /// A signal smoothed part by part.
-    fn smoothed(
-        &self,
-        recording: &Recording,
-        values: &[f64],
-        window: Window,
-    ) -> Result<Vec<f64>, Failure> {
-        let times = recording.required("t");
-        let mut all = Vec::with_capacity(values.len());
-        for part in recording.sampling().parts(times) {
-            let (from, derivative) = (times[part.start], self.derivative as usize);
-            let part = smoothed(&times[part.clone()], &values[part], window, derivative);
-            all.extend(part.map_err(|why| {
-                let name = printable(&self.recording);
-                Failure::request(format!("{name}: the part from t = {from} s: {why}"))
-            })?);
+/// What must be known of the parts of a signal: those that are left out, and those with another window.
+fn doubts(name: &str, parts: &[Part]) -> Vec<String> {
+    let mut told = Vec::new();
+    let short: Vec<&Part> = parts.iter().filter(|it| it.values.is_err()).collect();
+    for part in short.iter().take(NAMED) {
+        let (samples, begins) = (part.samples.len(), part.begins);
+        if let Err(why) = part.values {
+            told.push(format!(
+                "warning: {name}: the part of {samples} samples from t = {begins} s is left out: {why}"
+            ));
         }
-        Ok(all)
     }
+    if let Some(more @ 1..) = short.len().checked_sub(NAMED) {
+        told.push(format!("warning: {name}: and {more} parts more are left out"));
+    }
+    let first = parts.first().map_or(0, |it| it.window.samples);
+    for part in
+        parts.iter().filter(|it| it.values.is_ok() && it.window.samples != first).take(NAMED)
+    {
+        told.push(format!(
+            "note: {name}: from t = {} s samples are {} s apart, {} in a window",
+            part.begins,
+            significant(part.interval, 4),
+            part.window.samples
+        ));
+    }
+    told
+}
+
+/// A column with the values of the parts in their rows, and none in others.
+fn column(count: usize, rows: &[usize], parts: Vec<Part>) -> Vec<Option<f64>> {
+    let mut all = vec![None; count];
+    for part in parts {
+        let Ok(values) = part.values else { continue };
+        for (row, value) in rows[part.samples].iter().zip(values) {
+            all[*row] = Some(value);
+        }
+    }
+    all
 }
 
 /// What a column is called: derivatives of displacements by the names that recordings have for them.
@@ -139,8 +179,8 @@ fn heading(name: &str, dimension: Dimension, derivative: u64) -> String {
     format!("{} [{unit}]", known.unwrap_or(&called))
 }
 
-/// Columns over time as text, with all digits.
-fn csv(times: &[f64], columns: &[(String, Vec<f64>)]) -> String {
+/// Columns over time as text, with all digits; what has no value is an empty cell.
+fn csv(times: &[f64], columns: &[(String, Vec<Option<f64>>)]) -> String {
     let mut text = String::from("t [s]");
     columns.iter().for_each(|(heading, _)| text += &format!(",{heading}"));
     text += "\n";
@@ -148,7 +188,10 @@ fn csv(times: &[f64], columns: &[(String, Vec<f64>)]) -> String {
         // Text can always be written to.
         let _ = write!(text, "{time}");
         for (_, values) in columns {
-            let _ = write!(text, ",{}", values[row]);
+            let _ = match values[row] {
+                Some(value) => write!(text, ",{value}"),
+                None => write!(text, ","),
+            };
         }
         text += "\n";
     }

@@ -47,7 +47,8 @@ pub(super) struct Beginning {
 }
 
 impl Beginning {
-    /// The beginning of a signal with this noise, by a parabola through its first samples; none where they are too few.
+    /// The beginning of a signal with this noise, by a parabola through its first samples, whose times are since the first sample of the
+    /// record; none where they are too few.
     ///
     /// # Method
     ///
@@ -63,15 +64,14 @@ impl Beginning {
     /// Where more than three of the first nine samples are outliers.
     pub fn of(times: &[f64], values: &[f64], noise: f64) -> Option<Beginning> {
         let kept = without_outliers(times, values, noise);
-        let beginning = *times.first()?;
         let times: Vec<f64> = kept.iter().map(|&i| times[i]).collect();
         let values: Vec<f64> = kept.iter().map(|&i| values[i]).collect();
-        let window = first_window(values.len());
+        let window = first_window(values.len().max(1));
         let first = [0, 1, 2].map(|order| Some(smoothed(&times, &values, window, order).ok()?[0]));
         let [levels, rates, curvatures] = [first[0]?, first[1]?, first[2]?];
         let span = times[window.samples - 1] - times[0];
         // The parabola goes on from the first sample that is kept back to the first one, where the errors add up at most.
-        let back = times[0] - beginning;
+        let back = times[0];
         // A parabola through seven even samples has standard errors of 0.87, 4.7 over the span and 7.9 over its square there.
         let per_time = noise / span;
         let rate = Reading {

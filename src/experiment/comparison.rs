@@ -7,7 +7,7 @@ use super::agreement::{Difference, Doubt, advances};
 use super::drive_phase::{Harmonic, harmonic};
 use super::progression::{Progression, own_progression, progression};
 use super::recorded_period::period_of;
-use super::recording::{Recording, Sampling};
+use super::recording::{Recording, Sampling, Sensed};
 use super::settled_motion::{Settled, TOLERANCE};
 use super::simulated_span::check_span;
 use super::spikes::{Spikes, contact_period, contacts, per_cycle, spikes};
@@ -89,7 +89,7 @@ impl Drive {
 }
 
 /// A signal that was measured, with its values [SI].
-pub type Measured = (Signal, Vec<f64>);
+pub type Measured = (Signal, Sensed);
 
 /// The signals of a recording, which may have any of them, over the time from its first sample.
 ///
@@ -98,10 +98,10 @@ pub fn signals_of(recording: &Recording) -> Result<(Vec<f64>, Vec<Measured>), St
     let times = recording.required("t");
     let times: Vec<f64> = times.iter().map(|time| time - times[0]).collect();
     let measured = [Signal::X2, Signal::R, Signal::X1, Signal::Y1, Signal::Y2, Signal::A1];
-    let found: Vec<(Signal, Vec<f64>)> = measured
-        .into_iter()
-        .filter_map(|signal| Some((signal, recording.column(signal.name())?.to_vec())))
-        .collect();
+    let mut found = Vec::new();
+    for signal in measured {
+        found.extend(recording.sensed(signal.name()).map(|sensed| (signal, sensed.clone())));
+    }
     if found.is_empty() {
         let names = measured.map(Signal::name).join(", ");
         return Err(format!("has no signal of the motion; expected one of {names}"));
@@ -125,11 +125,14 @@ pub fn compare(
     protocol: &Protocol,
 ) -> Result<Comparison, String> {
     let (times, signals) = signals_of(recording)?;
+    for (signal, _) in &signals {
+        recording.whole(signal.name())?;
+    }
     let period = case.parameters.drive_period();
     let sampling = recording.sampling();
     check_span(&times, &sampling, period)?;
-    let driven = recording.column("drive").or(recording.column("current"));
-    let harmonic = driven.map(|values| harmonic(&times, values)).transpose()?;
+    let driven = recording.sensed("drive").or(recording.sensed("current"));
+    let harmonic = driven.map(|it| harmonic(&it.at(&times), &it.values)).transpose()?;
     let settled = Settled::new(case, protocol)?;
     let cycle = harmonic.as_ref().map_or(period, |it| TAU / it.omega.value);
     let record = Record { times: &times, signals: &signals, period, cycle };
@@ -143,7 +146,7 @@ pub fn compare(
         Some(harmonic) => {
             let turned = record.beside(&settled.at_phase(phase + PI)?, times.len())?;
             let may_be_inverted = size(&turned) < TURNED * size(&differences);
-            let is_force = recording.column("drive").is_some();
+            let is_force = recording.sensed("drive").is_some();
             Some(Drive { harmonic, is_force, may_be_inverted })
         }
         None => None,
@@ -193,7 +196,7 @@ impl Record<'_> {
     fn difference(&self, measured: &Measured, mut simulated: Vec<f64>) -> Difference {
         let (signal, recorded) = measured;
         let times = &self.times[..simulated.len()];
-        let recorded = recorded[..simulated.len()].to_vec();
+        let recorded = recorded.values[..simulated.len()].to_vec();
         if advances(*signal) {
             let first = times.iter().take_while(|time| **time < self.period).count().max(1);
             let offset = mean(&recorded[..first]) - mean(&simulated[..first]);

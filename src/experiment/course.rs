@@ -5,12 +5,14 @@ use super::history::Scatter;
 use super::least_squares::Bounds;
 use super::line::line;
 use super::noise::noise;
-use super::recording::median;
+use super::recording::{Sensed, median};
 use super::smoothing::smoothed;
 use crate::capsule::sampled::{Direction, Signal, Started};
 use crate::capsule::{CapsuleParameters as _, Parameter, State};
 use crate::description::Parameters;
 
+/// Values of a signal from which its noise is told.
+const LEAST: usize = 4;
 /// Velocities of the capsule at the first sample that are tried: how many, of either sign where it is not measured.
 const TRIED: u32 = 16;
 /// They lie within so many standard errors of a measured one.
@@ -31,8 +33,8 @@ pub struct Recorded {
     pub phase: f64,
     /// Its standard error, with which it is fitted, too; zero where it is exact [rad].
     pub phase_error: f64,
-    /// What was recorded, with its values at those times [SI].
-    pub signals: Vec<(Signal, Vec<f64>)>,
+    /// What was recorded, with its values at those of the times at which it was [SI].
+    pub signals: Vec<(Signal, Sensed)>,
 }
 
 /// What the residuals of a signal are divided by.
@@ -67,17 +69,20 @@ impl<'r> Course<'r> {
     ///
     /// Fails where neither r, nor x1 and x2, is recorded, or a signal does not vary.
     pub fn new(recorded: &'r Recorded, weights: Weights) -> Result<Self, String> {
-        let scatters = recorded.signals.iter().map(|(_, values)| {
-            let scatter = scatter_of(values);
+        for (signal, sensed) in &recorded.signals {
+            varies(signal.name(), &sensed.values)?;
+        }
+        let scatters = recorded.signals.iter().map(|(_, sensed)| {
+            let scatter = scatter_of(&sensed.values);
             match weights {
                 Weights::Noise => scatter,
-                Weights::Spread => Scatter { unit: spread(&recorded.times, values), ..scatter },
+                Weights::Spread => {
+                    let times = sensed.at(&recorded.times);
+                    Scatter { unit: spread(&times, &sensed.values), ..scatter }
+                }
             }
         });
         let scatters: Vec<Scatter> = scatters.collect();
-        for (signal, values) in &recorded.signals {
-            varies(signal.name(), values)?;
-        }
         let first = FirstSample::of(recorded, &scatters)
             .ok_or("neither r, nor x1 and x2, is recorded: the start is unknown")?;
         let y2 = first.speed.unwrap_or(Reading { value: 0.0, error: fastest(recorded) / REACH });
@@ -175,8 +180,11 @@ fn fastest(recorded: &Recorded) -> f64 {
     let parameters = &recorded.parameters;
     let mass = parameters[Parameter::M1] + parameters[Parameter::M2];
     let by_drive = parameters[Parameter::Pd] / (mass * parameters.frequency());
-    let r = recorded.signals.iter().find(|it| it.0 == Signal::R).map(|it| it.1.as_slice());
-    let rates = r.and_then(|r| smoothed(&recorded.times, r, first_window(r.len()), 1).ok());
+    let r = recorded.signals.iter().find(|it| it.0 == Signal::R).map(|it| &it.1);
+    let rates = r.and_then(|r| {
+        let times = r.at(&recorded.times);
+        smoothed(&times, &r.values, first_window(times.len()), 1).ok()
+    });
     let relative = rates.map_or(0.0, |it| {
         let sizes: Vec<f64> = it.iter().map(|rate| rate.abs()).collect();
         median(&sizes)
@@ -184,8 +192,14 @@ fn fastest(recorded: &Recorded) -> f64 {
     FASTEST * (relative + by_drive)
 }
 
-/// Fails where the values of a signal are all equal.
+/// Fails where the values of a signal are all equal, or too few.
 pub fn varies(name: &str, values: &[f64]) -> Result<(), String> {
+    if values.len() < LEAST {
+        let count = values.len();
+        return Err(format!(
+            "{name} has {count} values, and its noise is told by {LEAST} at least; remove the column"
+        ));
+    }
     match values.iter().all(|it| *it == values[0]) {
         true => Err(format!(
             "{name} does not vary, so that it says nothing of the motion and its noise is unknown; remove the column"
@@ -197,7 +211,8 @@ pub fn varies(name: &str, values: &[f64]) -> Result<(), String> {
 /// A signal's beginning; none where it is not recorded.
 fn begin(recorded: &Recorded, scatters: &[Scatter], signal: Signal) -> Option<Beginning> {
     let place = recorded.signals.iter().position(|(its, _)| *its == signal)?;
-    Beginning::of(&recorded.times, &recorded.signals[place].1, scatters[place].noise)
+    let sensed = &recorded.signals[place].1;
+    Beginning::of(&sensed.at(&recorded.times), &sensed.values, scatters[place].noise)
 }
 
 /// The standard deviation of a record about its line.

@@ -36,8 +36,9 @@ fn motion(course: &Course<'_>, free: &[Free], values: &[f64], start: &[f64]) -> 
 }
 
 impl History for Course<'_> {
-    fn times(&self) -> &[f64] {
-        &self.recorded.times
+    fn times(&self) -> Vec<Vec<f64>> {
+        let Recorded { times, signals, .. } = self.recorded;
+        signals.iter().map(|(_, sensed)| sensed.at(times)).collect()
     }
 
     fn channels(&self) -> Vec<Channel> {
@@ -97,9 +98,9 @@ pub(super) fn misfit_of(course: &Course<'_>, motion: &Started, loss: Loss) -> f6
     let names: Vec<Signal> = signals.iter().map(|it| it.0).collect();
     let Ok(found) = sampled(motion, times, &names, &[], TOLERANCE) else { return f64::INFINITY };
     let of_signals = signals.iter().enumerate().map(|(i, (_, recorded))| {
-        let pairs = found.values[i].iter().zip(recorded);
+        let pairs = recorded.beside(&found.values[i]);
         let unit = course.scatters[i].unit;
-        pairs.map(|(found, recorded)| loss.of((found - recorded) / unit)).sum::<f64>()
+        pairs.map(|(recorded, found)| loss.of((found - recorded) / unit)).sum::<f64>()
     });
     of_signals.sum()
 }

@@ -88,8 +88,9 @@ fn with_drifts<H: History>(found: &mut Residuals, courses: &[H], fitted: usize) 
     let (mut row, mut column) = (0, fitted);
     let mut drifts = Vec::new();
     for (recording, course) in courses.iter().enumerate() {
-        for (signal, scatter) in course.channels().into_iter().zip(course.scatters()) {
-            for time in course.times() {
+        let signals = course.channels().into_iter().zip(course.scatters());
+        for ((signal, scatter), times) in signals.zip(course.times()) {
+            for time in times {
                 found.slopes[row][column] = time / scatter.unit;
                 row += 1;
             }

@@ -63,7 +63,7 @@ fn first_cycles(comparison: &Comparison) -> Recorded {
         times: comparison.times[..count].to_vec(),
         phase: comparison.phase,
         phase_error: comparison.drive.as_ref().map_or(0.0, |it| it.harmonic.phase.standard_error),
-        signals: varying.map(|it| (it.signal, it.recorded[..count].to_vec())).collect(),
+        signals: varying.map(|it| (it.signal, it.recorded[..count].to_vec().into())).collect(),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::free_parameter::Free;
 use super::least_squares::{Bounds, Fit, Model, Residuals};
 use super::misfit::SignalResiduals;
+use super::recording::Sensed;
 use crate::quantity::Dimension;
 
 /// What a recorded signal is called, and what it measures.
@@ -31,12 +32,13 @@ impl Scatter {
     pub(super) fn add_residuals(
         &self,
         all: &mut Residuals,
-        recorded: &[f64],
+        recorded: &Sensed,
         found: &[f64],
         slopes: &[Vec<f64>],
     ) {
         let unit = 1.0 / self.unit;
-        for ((recorded, found), slopes) in recorded.iter().zip(found).zip(slopes) {
+        let of_rows = recorded.beside(found).zip(recorded.beside(slopes));
+        for ((recorded, found), (_, slopes)) in of_rows {
             all.push((found - recorded) * unit, slopes.iter().map(|it| it * unit).collect());
         }
     }
@@ -44,8 +46,8 @@ impl Scatter {
 
 /// A recorded history with what is unknown of the start of its motion.
 pub trait History: Sync {
-    /// Times since the first sample [s], the first of which is zero.
-    fn times(&self) -> &[f64];
+    /// The times of each signal since the first sample of the record [s].
+    fn times(&self) -> Vec<Vec<f64>>;
 
     /// What was recorded.
     fn channels(&self) -> Vec<Channel>;
@@ -113,7 +115,7 @@ pub(super) fn residuals<H: History>(
 pub(super) fn groups<H: History>(courses: &[H]) -> Vec<usize> {
     let mut groups = Vec::new();
     for course in courses {
-        groups.extend(vec![course.times().len(); course.scatters().len()]);
+        groups.extend(course.times().iter().map(Vec::len));
         groups.extend(course.fits_phase().then_some(1));
     }
     groups
@@ -124,8 +126,8 @@ pub(super) fn by_signal<H: History>(courses: &[H], free: &[Free], fit: &Fit) -> 
     let Some(found) = residuals(courses, free, &fit.parameters) else { return Vec::new() };
     let (mut all, mut rest) = (Vec::new(), found.values.as_slice());
     for course in courses {
-        for _ in course.scatters() {
-            let (own, others) = rest.split_at(course.times().len());
+        for times in course.times() {
+            let (own, others) = rest.split_at(times.len());
             all.push(own.to_vec());
             rest = others;
         }

@@ -72,7 +72,8 @@ pub fn impossible_rows(test: Test, recording: &Recording) -> Vec<(usize, String)
         Test::Coasting => "speeds and distances of coasting tests must be above zero",
         _ => return Vec::new(),
     };
-    let columns: Vec<&[f64]> = recording.columns.iter().map(|(_, values)| &values[..]).collect();
+    let columns: Vec<&[f64]> =
+        recording.columns.iter().map(|(_, sensed)| &sensed.values[..]).collect();
     let rows = 0..recording.rows();
     let wrong = rows.filter(|&row| columns.iter().any(|values| values[row] <= 0.0));
     wrong.map(|row| (row, why.to_owned())).collect()

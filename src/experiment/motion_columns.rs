@@ -21,13 +21,14 @@ pub fn columns_of_motion(model: &'static Description) -> Vec<Column> {
     [times(of_time)].into_iter().chain(states).collect()
 }
 
-/// That a recording of a capsule has columns which are no signals; nothing if it has none.
-pub fn left_out(recording: &Recording) -> Option<String> {
-    if recording.others.is_empty() {
-        return None;
+/// What must be known of how a recording of a capsule was read, and that it has columns which are no signals.
+pub fn left_out(recording: &Recording) -> Vec<String> {
+    let mut told = recording.notes.clone();
+    if !recording.others.is_empty() {
+        let (others, signals) = (recording.others.join(", "), Signal::ALL.map(Signal::name));
+        told.push(format!("left out: {others}; the signals are {}, current", signals.join(", ")));
     }
-    let signals = Signal::ALL.map(Signal::name).join(", ");
-    Some(format!("left out: {}; the signals are {signals}, current", recording.others.join(", ")))
+    told
 }
 
 fn times(dimension: Dimension) -> Column {

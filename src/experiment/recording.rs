@@ -26,6 +26,13 @@ pub struct Column {
     pub presence: Presence,
 }
 
+impl Column {
+    /// Whether it is that of times.
+    pub fn is_times(&self) -> bool {
+        self.name == "t"
+    }
+}
+
 /// Whether a recording must have a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Presence {
@@ -40,15 +47,18 @@ pub enum Presence {
 pub struct RecordingFaults {
     /// The file.
     pub source: String,
-    /// The first twenty: line, counted from 1, and what is wrong there; no line where the whole file is meant.
+    /// The first twenty: line, counted from 1, and what is wrong there; no line where the whole file is meant. One that repeats stands here
+    /// once, with how many times.
     pub faults: Vec<(Option<u64>, String)>,
     /// How many there are in all.
     pub count: usize,
+    /// How many of them are of none of those.
+    pub untold: usize,
 }
 
 impl fmt::Display for RecordingFaults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RecordingFaults { source, faults, count } = self;
+        let RecordingFaults { source, faults, count, untold } = self;
         let plural = if *count == 1 { "fault" } else { "faults" };
         write!(f, "{}: {count} {plural}", one_line(source))?;
         for (line, message) in faults {
@@ -57,7 +67,7 @@ impl fmt::Display for RecordingFaults {
                 None => write!(f, "\n  {message}")?,
             }
         }
-        match count.saturating_sub(faults.len()) {
+        match untold {
             0 => Ok(()),
             more => write!(f, "\n  and {more} more"),
         }
@@ -66,15 +76,53 @@ impl fmt::Display for RecordingFaults {
 
 impl std::error::Error for RecordingFaults {}
 
-/// The columns of a file that were asked for, in SI, as long as each other.
+/// What a sensor has recorded: its values (SI), each in its row; a row whose cell was empty has none.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Sensed {
+    /// The rows, counted from 0, rising.
+    pub rows: Vec<usize>,
+    /// The value in each [SI].
+    pub values: Vec<f64>,
+}
+
+impl From<Vec<f64>> for Sensed {
+    /// A value in each row.
+    fn from(values: Vec<f64>) -> Sensed {
+        Sensed { rows: (0..values.len()).collect(), values }
+    }
+}
+
+impl Sensed {
+    /// The values in the first rows, so many.
+    pub fn first(&self, rows: usize) -> Sensed {
+        let count = self.rows.partition_point(|row| *row < rows);
+        Sensed { rows: self.rows[..count].to_vec(), values: self.values[..count].to_vec() }
+    }
+
+    /// Pairs of its values and those of its rows in something that has a value in each row.
+    pub fn beside<'s, T>(&'s self, all: &'s [T]) -> impl Iterator<Item = (f64, &'s T)> {
+        self.rows.iter().zip(&self.values).map(|(row, value)| (*value, &all[*row]))
+    }
+
+    /// The times of its values, by those of all rows.
+    pub fn at(&self, times: &[f64]) -> Vec<f64> {
+        self.rows.iter().map(|row| times[*row]).collect()
+    }
+}
+
+/// The columns of a file that were asked for, in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
     /// The file.
     pub source: String,
     /// The names of the columns of the file that were not asked for.
     pub others: Vec<String>,
-    pub(super) columns: Vec<(Column, Vec<f64>)>,
+    /// What must be known of how the file was read, in sentences: cells that are empty, times that were not in it.
+    pub notes: Vec<String>,
+    pub(super) columns: Vec<(Column, Sensed)>,
     pub(super) rows: usize,
+    /// The line of each row.
+    pub(super) lines: Vec<u64>,
 }
 
 /// The times of a recording.
@@ -93,18 +141,39 @@ pub struct Sampling {
 }
 
 impl Recording {
-    /// The values of a column, if the recording has it [SI].
-    pub fn column(&self, name: &str) -> Option<&[f64]> {
-        let (_, values) = self.columns.iter().find(|(column, _)| column.name == name)?;
-        Some(values)
+    /// What a column holds, if the recording has it.
+    pub fn sensed(&self, name: &str) -> Option<&Sensed> {
+        let (_, sensed) = self.columns.iter().find(|(column, _)| column.name == name)?;
+        Some(sensed)
     }
 
-    /// The values of a column that was required [SI].
+    /// The values of a column that was required, one in each row [SI].
     ///
     /// # Panics
     /// Where the recording does not have it.
     pub fn required(&self, name: &str) -> &[f64] {
-        self.column(name).expect("a required column is there")
+        &self.sensed(name).expect("a required column is there").values
+    }
+
+    /// The values of a column, one in each row, if the recording has it [SI].
+    ///
+    /// Fails where a row has none, with the column and the first line.
+    pub fn whole(&self, name: &str) -> Result<Option<&[f64]>, String> {
+        let Some(Sensed { rows, values }) = self.sensed(name) else { return Ok(None) };
+        if values.len() == self.rows {
+            return Ok(Some(values));
+        }
+        let first = (0..self.rows).find(|row| rows.get(*row) != Some(row)).unwrap_or(0);
+        let (line, empty) = (self.line(first), self.rows - values.len());
+        Err(format!(
+            "{name}: {empty} of {} rows have no value, the first in line {line}; leave those rows out of the file, or the column",
+            self.rows
+        ))
+    }
+
+    /// The line of the file, counted from 1, of a row.
+    pub fn line(&self, row: usize) -> u64 {
+        self.lines[row]
     }
 
     /// Rows.

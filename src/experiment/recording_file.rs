@@ -2,168 +2,233 @@
 
 use std::io::Read;
 
-use csv::{ReaderBuilder, StringRecord, Trim};
+use csv::{ReaderBuilder, Trim};
 
-use super::recording::{Column, MOST_TOLD, Presence, Recording, RecordingFaults};
+use super::file_faults::{Faults, Kind};
+use super::file_form::FileForm;
+use super::file_rows::Rows;
+use super::header::{Table, table};
+use super::header_columns::Found;
+use super::header_messages::{HeaderMessages, columns_of};
+use super::preamble::intervals;
+use super::recording::{Column, Presence, Recording, RecordingFaults, Sensed};
+use super::table_lines::name_and_unit;
 use crate::quantity::Dimension;
 use crate::quantity::printable::excerpt;
-use crate::quantity::units::{expectation, unit};
-
-/// So many columns of a header are named at most.
-const MOST_COLUMNS: usize = 20;
 
 impl Recording {
     /// Reads the columns that are `known` from the text of a file; other columns are left out. Where `known` has a
-    /// column of times, they must increase. Lines that begin with `#` are comments.
+    /// column of times, they must increase. Lines that begin with `#` are comments, and rows without any value are left out.
+    ///
+    /// The header may stand below other lines, and units below the names ([`FileForm`] says more of it). Numbers have a decimal comma
+    /// where the first one has it and no comma separates the cells. A cell that is empty or NaN leaves its sensor out of its row; a row
+    /// that lacks a required column is left out.
     ///
     /// Fails with all faults at once, of which the first twenty are kept and the others counted: a column that is missing, is
     /// given twice or has another unit than its dimension allows, a cell that is not a finite number or has more than one line,
-    /// a row of another length, times that do not increase, fewer than `least` rows. The time grows as the text does.
+    /// a row of another length, times that do not increase, fewer than `least` rows. A fault of many rows is kept once, with its first
+    /// line and how many they are. The time grows as the text does.
     pub fn read(
         source: &str,
         text: &str,
         known: &[Column],
         least: usize,
     ) -> Result<Recording, RecordingFaults> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut reading = Reading { faults: Vec::new(), count: 0, others: Vec::new(), known, text };
-        let recording = reading.recording(source, least);
-        let Reading { faults, count, .. } = reading;
-        match count {
-            0 => Ok(recording),
-            _ => Err(RecordingFaults { source: source.to_owned(), faults, count }),
-        }
+        Self::read_as(source, text, known, least, None)
     }
-}
 
-/// A column of the file: which of the known ones, its place in a row, and the size of its unit.
-struct Found {
-    column: Column,
-    place: usize,
-    size: f64,
+    /// The same of a file of which a `form` is said, or may be: then faults name the options that say it.
+    ///
+    /// Fails as [`Recording::read`], and where the form does not fit the file.
+    pub fn read_as(
+        source: &str,
+        text: &str,
+        known: &[Column],
+        least: usize,
+        form: Option<&FileForm>,
+    ) -> Result<Recording, RecordingFaults> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let none = FileForm::default();
+        let said = form.unwrap_or(&none);
+        let table = table(text, known, said);
+        let mut reading = Reading {
+            faults: Faults::new(text),
+            others: Vec::new(),
+            notes: Vec::new(),
+            known,
+            table,
+            form: said,
+            has_options: form.is_some(),
+        };
+        let recording = reading.recording(source, least);
+        reading.faults.none_or(source).map(|()| recording)
+    }
 }
 
 struct Reading<'k> {
-    /// The first faults.
-    faults: Vec<(Option<u64>, String)>,
-    /// How many there are.
-    count: usize,
+    faults: Faults<'k>,
     /// The names of the columns that were not asked for.
     others: Vec<String>,
+    notes: Vec<String>,
     known: &'k [Column],
-    text: &'k str,
+    table: Table<'k>,
+    form: &'k FileForm,
+    /// Whether the form can be said by options.
+    has_options: bool,
 }
 
 impl Reading<'_> {
-    /// Notes a fault of the row at this byte, if it is among the first: to count lines and to put words together for each of
-    /// many would take long.
-    fn fault(&mut self, at: u64, message: impl FnOnce(&Self) -> String) {
-        self.count += 1;
-        if self.faults.len() < MOST_TOLD {
-            self.faults.push((Some(self.line(at)), message(self)));
-        }
-    }
-
-    /// The line of the row at this byte, before which the reader may have left out lines.
-    fn line(&self, at: u64) -> u64 {
-        let (before, after) = self.text.split_at(at as usize);
-        let left_out = after.lines().take_while(|it| it.is_empty() || it.starts_with('#'));
-        (before.matches('\n').count() + left_out.count() + 1) as u64
-    }
-
     fn recording(&mut self, source: &str, least: usize) -> Recording {
-        let text = self.text;
+        let found = self.header();
+        let interval = self.interval(&found);
+        let mut rows = Rows::new(&self.table, found);
+        let start = self.table.data;
         // Without a line break at its end the reader takes a last comment for a row.
-        let whole = text.as_bytes().chain(&b"\n"[..]);
+        let whole = self.faults.text.as_bytes()[start..].chain(&b"\n"[..]);
         let mut reader = ReaderBuilder::new()
-            .delimiter(delimiter(text))
+            .delimiter(self.table.delimiter)
             .comment(Some(b'#'))
             .flexible(true)
             .trim(Trim::All)
             .has_headers(false)
             .from_reader(whole);
-        let mut records = reader.records().map_while(Result::ok);
-        let header = records.next().unwrap_or_default();
-        let found = self.header(&header);
-        let mut columns: Vec<_> = found.iter().map(|it| (it.column, Vec::new())).collect();
-        let mut places = Vec::new();
-        for record in records {
-            places.push(place_of(&record));
-            self.row(&record, header.len(), &found, &mut columns);
+        for (number, record) in reader.records().map_while(Result::ok).enumerate() {
+            if record.iter().any(|cell| !cell.is_empty()) {
+                rows.add(&record, (number, start as u64), &mut self.faults);
+            }
         }
-        let others = std::mem::take(&mut self.others);
+        self.tell_empty_cells(&rows);
+        let lines = self.faults.lines(&rows.places);
+        let Rows { columns, places, numbered, .. } = rows;
+        let mut columns: Vec<(Column, Sensed)> =
+            columns.into_iter().map(|(found, sensed)| (found.column, sensed)).collect();
+        let times = self.known.iter().find(|it| it.is_times());
+        if let (Some(interval), Some(times)) = (interval, times) {
+            let values = numbered.iter().map(|number| *number as f64 * interval).collect();
+            columns.insert(0, (*times, Sensed { rows: (0..places.len()).collect(), values }));
+        }
+        let [others, notes] = [&mut self.others, &mut self.notes].map(std::mem::take);
         let (source, rows) = (source.to_owned(), places.len());
-        let recording = Recording { source, others, columns, rows };
-        if self.count == 0 {
+        let recording = Recording { source, others, notes, columns, rows, lines };
+        if self.faults.count == 0 {
             self.rows(&recording, &places, least);
         }
         recording
     }
 
-    /// Adds the numbers of a row, which has so many cells, to the columns.
-    fn row(
-        &mut self,
-        record: &StringRecord,
-        cells: usize,
-        found: &[Found],
-        columns: &mut [(Column, Vec<f64>)],
-    ) {
-        let at = place_of(record);
-        // A quote that is not closed would make one cell of all rows that follow.
-        if record.iter().any(|cell| cell.contains(['\n', '\r'])) {
-            self.fault(at, |_| "a cell has more than one line; a quote is not closed".to_owned());
-            return;
+    /// The known columns of the header; its faults are noted.
+    fn header(&mut self) -> Vec<Found> {
+        let at = self.table.at as u64;
+        let mut found = self.table.found.clone();
+        let mut is_known = vec![false; self.table.header.len()];
+        for place in found.iter().flat_map(|it| it.places.iter()) {
+            is_known.iter_mut().skip(*place).take(1).for_each(|it| *it = true);
         }
-        if record.len() != cells {
-            self.fault(at, |_| row_length(record, cells));
-            return;
+        for (cell, is_known) in self.table.header.iter().zip(is_known) {
+            if !is_known && !cell.is_empty() {
+                self.others.push(excerpt(name_and_unit(cell).0).into_owned());
+            }
         }
-        for (found, (_, values)) in found.iter().zip(columns) {
-            match finite(&record[found.place], found.size) {
-                Some(value) => values.push(value),
-                None => self.fault(at, |_| {
-                    format!("{}: {}", found.column.name, unreadable(&record[found.place]))
-                }),
+        if self.form.interval.is_some() {
+            let times = found.iter().find(|it| it.column.is_times());
+            if let Some(cell) = times.and_then(|it| self.table.header.get(it.places[0])) {
+                let why =
+                    format!("the column {} is not read, as --interval is given", excerpt(cell));
+                self.notes.push(why);
+            }
+            found.retain(|it| !it.column.is_times());
+        }
+        for it in &found {
+            let name = it.column.name;
+            if it.places.len() > 1 {
+                let message = self.messages().stands_twice(it);
+                self.faults.push((name, Kind::Header), at, |_| message);
+            }
+            if it.size.is_none() {
+                let message = self.messages().other_unit(it);
+                self.faults.push((name, Kind::Header), at, |_| message);
+            }
+        }
+        for column in self.known {
+            let is_there = found.iter().any(|found| found.column == *column);
+            let name = column.name;
+            if let Some(said) = self.form.named(name).filter(|_| !is_there) {
+                let columns = columns_of(&self.table.header);
+                let message = format!(
+                    "--columns {name}={}: there is no such column; {columns}",
+                    excerpt(said)
+                );
+                self.faults.push((name, Kind::Header), at, |_| message);
+            } else if !is_there && column.presence == Presence::Required && !column.is_times() {
+                let message = self.messages().missing(*column);
+                self.faults.push((name, Kind::Header), at, |_| message);
+            }
+        }
+        found
+    }
+
+    /// The time between two samples where no column has the times [s].
+    fn interval(&mut self, found: &[Found]) -> Option<f64> {
+        let times = *self.known.iter().find(|it| it.is_times())?;
+        let column = found.iter().find(|it| it.column.is_times());
+        if self.form.interval.is_some() {
+            return self.form.interval;
+        }
+        if column.is_some()
+            || self.form.named("t").is_some()
+            || times.presence == Presence::Optional
+        {
+            return None;
+        }
+        let mut said = intervals(&self.table.before, self.table.delimiter);
+        said.dedup_by(|a, b| a.interval == b.interval);
+        match said.as_slice() {
+            [one] if times.dimension == Dimension::Time => {
+                let line = self.faults.line(one.at as u64);
+                self.notes.push(format!(
+                    "no column of times: the samples are {} s apart, as line {line} says ({})",
+                    one.interval,
+                    excerpt(&one.label)
+                ));
+                Some(one.interval)
+            }
+            _ => {
+                let mut message = self.messages().missing(times);
+                if said.len() > 1 {
+                    message +=
+                        &format!("; {} lines say different intervals of samples", said.len());
+                }
+                self.faults.push((times.name, Kind::Header), self.table.at as u64, |_| message);
+                None
             }
         }
     }
 
-    /// The known columns of a header.
-    fn header(&mut self, header: &StringRecord) -> Vec<Found> {
-        let at = place_of(header);
-        let mut all: Vec<Found> = Vec::new();
-        for (place, cell) in header.iter().enumerate() {
-            let (name, its_unit) = name_and_unit(cell);
-            let Some(&column) = self.known.iter().find(|column| column.name == name) else {
-                self.others.push(excerpt(name).into_owned());
-                continue;
-            };
-            if all.iter().any(|found| found.column == column) {
-                self.fault(at, |_| format!("the column {name} stands twice"));
-                continue;
-            }
-            // As texts of oscillators write a plain number.
-            let is_number = column.dimension == Dimension::Number && its_unit == "1";
-            match unit(if is_number { "" } else { its_unit }, column.dimension) {
-                Some((_, size)) => all.push(Found { column, place, size }),
-                None => {
-                    let expected = expectation(column.dimension);
-                    let (cell, example) = (excerpt(cell), example(column));
-                    self.fault(at, |_| format!("\"{cell}\": expected {expected}, as {example}"));
-                    all.push(Found { column, place, size: 1.0 });
-                }
-            }
-        }
-        for column in self.known {
-            let is_there = all.iter().any(|found| found.column == *column);
-            if !is_there && column.presence == Presence::Required {
-                let (name, example) = (column.name, example(*column));
-                self.fault(at, |_| {
-                    format!("no column {name}; expected {example}; {}", columns_of(header))
-                });
+    fn messages(&self) -> HeaderMessages<'_> {
+        HeaderMessages { header: &self.table.header, has_options: self.has_options }
+    }
+
+    /// Notes of which columns cells are empty.
+    fn tell_empty_cells(&mut self, rows: &Rows) {
+        for ((found, _), (count, first)) in rows.columns.iter().zip(&rows.empty) {
+            if *count > 0 {
+                let line = self.faults.line(*first);
+                let [cells, those] = match count {
+                    1 => ["cell is", "that row"],
+                    _ => ["cells are", "those rows"],
+                };
+                let without = match found.column.presence {
+                    Presence::Required => {
+                        format!("; {those} are left out").replace("row are", "row is")
+                    }
+                    Presence::Optional => String::new(),
+                };
+                let name = found.column.name;
+                self.notes.push(format!(
+                    "{name}: {count} {cells} empty or NaN, the first in line {line}{without}"
+                ));
             }
         }
-        all
     }
 
     /// What is asked of all rows together.
@@ -171,105 +236,25 @@ impl Reading<'_> {
         if recording.rows() < least {
             let rows = recording.rows();
             let are = if rows == 1 { "row" } else { "rows" };
-            let message = format!("{rows} {are} of numbers; at least {least} are needed");
-            self.count += 1;
-            self.faults.push((None, message));
+            self.faults.of_file(format!("{rows} {are} of numbers; at least {least} are needed"));
         }
-        let Some(times) = recording.column("t") else { return };
-        for (i, pair) in times.windows(2).enumerate() {
+        let Some(times) = recording.sensed("t") else { return };
+        let option = if self.has_options {
+            "; where they are rounded, --interval stands for those of equally spaced samples"
+        } else {
+            ""
+        };
+        for (i, pair) in times.values.windows(2).enumerate() {
             if pair[1] <= pair[0] {
-                self.fault(places[i + 1], |reading| {
-                    let before = reading.line(places[i]);
+                let before = recording.lines[i];
+                self.faults.push(("t", Kind::Order), places[i + 1], |_| {
                     format!(
-                        "t = {} s does not come after {} s in line {before}; times must increase",
+                        "t = {} s does not come after {} s in line {before}; times must increase{option}",
                         pair[1], pair[0]
                     )
                 });
             }
         }
-    }
-}
-
-/// The byte at which the reader began to look for a row.
-fn place_of(record: &StringRecord) -> u64 {
-    record.position().map_or(0, csv::Position::byte)
-}
-
-/// What separates the cells of the first line that is no comment: the commonest of semicolon, tab and comma, in this order
-/// where they are equally many.
-fn delimiter(text: &str) -> u8 {
-    let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty());
-    let header = header.unwrap_or_default();
-    let delimiters = [b',', b'\t', b';'].into_iter();
-    let commonest = delimiters.max_by_key(|it| header.bytes().filter(|byte| byte == it).count());
-    commonest.unwrap_or(b',')
-}
-
-/// The name and the unit of a column, written "name [unit]", "name (unit)", "name in unit" or "name / unit".
-fn name_and_unit(cell: &str) -> (&str, &str) {
-    for (open, close) in [(" [", "]"), ("[", "]"), (" (", ")"), ("(", ")"), (" in ", ""), ("/", "")]
-    {
-        if let Some((name, rest)) = cell.split_once(open)
-            && let Some(unit) = rest.trim_end().strip_suffix(close)
-        {
-            return (name.trim(), unit.trim());
-        }
-    }
-    (cell, "")
-}
-
-/// The columns of a header, as many as a line shows.
-fn columns_of(header: &StringRecord) -> String {
-    if header.is_empty() {
-        return "the file is empty".to_owned();
-    }
-    let first: Vec<_> = header.iter().take(MOST_COLUMNS).map(excerpt).collect();
-    let more = match header.len().saturating_sub(MOST_COLUMNS) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    format!("the columns are {}{more}", first.join(", "))
-}
-
-/// How a column may stand in a header.
-fn example(column: Column) -> String {
-    match column.dimension {
-        Dimension::Number => format!("\"{}\"", column.name),
-        dimension => format!("\"{} [{}]\"", column.name, dimension.unit()),
-    }
-}
-
-/// Why a row cannot be read that has another number of cells than the header.
-fn row_length(record: &StringRecord, expected: usize) -> String {
-    let hint = match record.len() > expected {
-        true => "; a number has a decimal point, not a comma",
-        false => "",
-    };
-    let cells = if record.len() == 1 { "cell" } else { "cells" };
-    format!("{} {cells}, but the header has {expected}{hint}", record.len())
-}
-
-/// The number in a cell times the size of its unit, if both are finite.
-fn finite(cell: &str, size: f64) -> Option<f64> {
-    let value = cell.parse::<f64>().ok()?;
-    Some(value * size).filter(|value| value.is_finite())
-}
-
-/// Why there is no finite number in a cell.
-fn unreadable(cell: &str) -> String {
-    let shown = excerpt(cell);
-    match cell.parse::<f64>() {
-        Ok(value) if value.is_finite() => format!("\"{shown}\" is too large for SI units"),
-        Ok(_) => {
-            format!("\"{shown}\" is not a finite number; a row that lacks a value must be left out")
-        }
-        Err(_) if cell.is_empty() => {
-            "has no value; a row that lacks a value must be left out".to_owned()
-        }
-        Err(_) if cell.replace(',', ".").parse::<f64>().is_ok() => {
-            format!("\"{shown}\" has a decimal comma; expected a decimal point")
-        }
-        Err(_) => format!("\"{shown}\" is not a number"),
     }
 }
 
@@ -298,7 +283,7 @@ mod tests {
             let recording = read(text).expect(text);
             assert_eq!(recording.required("x2"), [2.5 * 1e-3, 3.5 * 1e-3], "{text}");
             assert_eq!(recording.required("t"), [0.0, 1e-3], "{text}");
-            assert_eq!(recording.column("r"), None);
+            assert_eq!(recording.sensed("r"), None);
         }
     }
 
@@ -312,10 +297,20 @@ mod tests {
                 Some(1),
                 "no column x2; expected \"x2 [m]\"; the columns are t [s], r [m]",
             ),
-            ("t [s],x2 [m]\n0,1\n1,NaN\n", Some(3), "x2: \"NaN\" is not a finite number"),
-            ("t [s],x2 [m]\n0,1\n# pause\n1,\n", Some(4), "x2: has no value"),
+            ("t [s],x2 [m]\n0,1\n1,inf\n", Some(3), "x2: \"inf\" is not a finite number"),
+            ("t [s],x2 [m]\n0,1\n# pause\n,1\n", Some(4), "t: has no value"),
+            ("t [s],x2 [m]\n0,1\n1,NaN\n", None, "1 row of numbers; at least 2 are needed"),
             ("t [s],x2 [m]\n0,1\n0.5,one\n", Some(3), "x2: \"one\" is not a number"),
-            ("t [s];x2 [m]\n0;1\n0,5;2\n", Some(3), "t: \"0,5\" has a decimal comma"),
+            (
+                "t [s];x2 [m]\n0;1.5\n0,5;2\n",
+                Some(3),
+                "t: \"0,5\" has a decimal comma, but numbers in line 2",
+            ),
+            (
+                "t [s],x2 [m]\n0,1\n\"0,5\",2\n",
+                Some(3),
+                "t: \"0,5\" has a decimal comma, and commas",
+            ),
             (
                 "t [s],x2 [m]\n0,1\n0,5,2\n",
                 Some(3),
@@ -331,7 +326,7 @@ mod tests {
             ),
             ("t [s],x2 [m]\n0,1\n1,a\u{1b}\n", Some(3), "x2: \"a\\u001b\" is not a number"),
             ("t [s],t [s],x2 [m]\n0,0,1\n1,1,2\n", Some(1), "the column t stands twice"),
-            ("", Some(1), "no column t; expected \"t [s]\"; the file is empty"),
+            ("", Some(1), "no column t; expected \"t [s]\"; the file is empty, or"),
         ] {
             let faults = read(text).expect_err(text);
             let is_told =
@@ -348,14 +343,54 @@ mod tests {
     }
 
     #[test]
-    fn the_first_twenty_faults_are_told_and_all_are_counted() {
-        for (rows, row) in [(1000, "a,b\n"), (2000, "0,1\n")] {
+    fn a_fault_that_repeats_is_told_once_and_counted() {
+        for (rows, row, lines) in [(1000, "a,b\n", 3), (2000, "0,1\n", 2)] {
             let faults = read(&format!("t [s],x2 [m]\n{}", row.repeat(rows))).expect_err("faults");
             assert_eq!(faults.count, if rows == 1000 { 2000 } else { 1999 });
             let told = faults.to_string();
-            assert_eq!(told.lines().count(), 22, "{told}");
-            assert!(told.ends_with(&format!("and {} more", faults.count - 20)), "{told}");
+            assert_eq!(told.lines().count(), lines, "{told}");
+            let each = if rows == 1000 { 1000 } else { 1999 };
+            assert!(
+                told.ends_with(&format!("; so in {each} rows, of which this is the first")),
+                "{told}"
+            );
         }
+        let twice = "t [s],x2 [V]\n0,1\n1,2\n";
+        assert!(!read(twice).expect_err("a fault").to_string().contains("rows"));
+    }
+
+    #[test]
+    fn an_empty_cell_leaves_its_sensor_out_of_its_row() {
+        let text = "t [s];x2 [mm];r [mm]\n0;1;\n1;2;0,5\n2;;0,6\n;;\n3;4;NaN\n";
+        let recording = read(text).expect("readable");
+        // x2 is required: its row is left out.
+        assert_eq!(recording.required("t"), [0.0, 1.0, 3.0]);
+        assert_eq!(recording.required("x2"), [1e-3, 2e-3, 4e-3]);
+        let r = recording.sensed("r").expect("read");
+        assert_eq!((&r.rows[..], &r.values[..]), (&[1][..], &[0.5e-3][..]));
+        assert_eq!([0, 1, 2].map(|row| recording.line(row)), [2, 3, 6]);
+        assert_eq!(
+            recording.notes,
+            [
+                "x2: 1 cell is empty or NaN, the first in line 4; that row is left out",
+                "r: 2 cells are empty or NaN, the first in line 2"
+            ]
+        );
+    }
+
+    #[test]
+    fn times_may_be_an_interval_and_columns_may_be_named() {
+        let mut form = FileForm { interval: Some(2e-3), ..FileForm::default() };
+        form.name_columns("x2=Ch1:2.5 mm, r=#3:mm").expect("a list");
+        let text = "Rig 3\nTime,Ch1,Ch2\n12:00:01,1,4\n12:00:02,2,5\n,,\n12:00:03,4,6\n";
+        let recording = Recording::read_as("rig.csv", text, &KNOWN, 2, Some(&form)).expect("read");
+        assert_eq!(recording.required("t"), [0.0, 2e-3, 3.0 * 2e-3]);
+        assert_eq!(recording.required("x2"), [2.5e-3, 5e-3, 1e-2]);
+        assert_eq!(recording.required("r"), [4e-3, 5e-3, 6e-3]);
+        assert_eq!(recording.notes, ["the column Time is not read, as --interval is given"]);
+        form.interval = None;
+        let told = Recording::read_as("rig.csv", text, &KNOWN, 2, Some(&form)).expect_err("faults");
+        assert!(told.to_string().contains("--columns \"t=Time:s\""), "{told}");
     }
 
     #[test]

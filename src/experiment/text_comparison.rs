@@ -77,6 +77,9 @@ pub fn compare_text(
     case: &Case,
     protocol: &Protocol,
 ) -> Result<TextComparison, String> {
+    for state in &case.parameters.model().coordinates {
+        recording.whole(state.name)?;
+    }
     let orbit = settle_case(case, &Protocol { history: None, ..*protocol });
     if let Some(failure) = &orbit.failure {
         return Err(format!("the simulation cannot be followed: {}", failure.reason));
@@ -96,7 +99,7 @@ pub fn compare_text(
     let sampling = recording.sampling();
     let recorded_period = repeating
         .filter(|_| sampling.gaps.is_empty())
-        .and_then(|it| period_of(&record.times, &it.1, cycle));
+        .and_then(|it| period_of(&record.times, &it.1.values, cycle));
     Ok(TextComparison {
         times: record.times.clone(),
         sampling,
@@ -197,7 +200,7 @@ impl Settled<'_> {
         let both = states.iter().zip(found.values);
         Ok(both
             .map(|((place, recorded), simulated)| {
-                self.difference(*place, recorded[..count].to_vec(), simulated)
+                self.difference(*place, recorded.values[..count].to_vec(), simulated)
             })
             .collect())
     }

@@ -48,10 +48,11 @@ impl<'r> TextCourse<'r> {
     ///
     /// Fails where a recorded state does not vary.
     pub fn new(recorded: &'r TextRecord) -> Result<Self, String> {
-        let scatters: Vec<Scatter> = recorded.states.iter().map(|it| scatter_of(&it.1)).collect();
-        for (place, values) in &recorded.states {
-            varies(recorded.channel(*place).name, values)?;
+        for (place, sensed) in &recorded.states {
+            varies(recorded.channel(*place).name, &sensed.values)?;
         }
+        let scatters: Vec<Scatter> =
+            recorded.states.iter().map(|it| scatter_of(&it.1.values)).collect();
         let readings = readings(recorded, &scatters);
         let mut values = recorded.start.values().to_vec();
         for (value, reading) in values.iter_mut().zip(&readings) {
@@ -113,8 +114,8 @@ impl<'r> TextCourse<'r> {
         let mut sum = 0.0;
         for (i, (_, recorded)) in states.iter().enumerate() {
             let unit = self.scatters[i].unit;
-            let pairs = found.values[i].iter().zip(recorded);
-            sum += pairs.map(|(found, recorded)| loss.of((found - recorded) / unit)).sum::<f64>();
+            let pairs = recorded.beside(&found.values[i]);
+            sum += pairs.map(|(recorded, found)| loss.of((found - recorded) / unit)).sum::<f64>();
         }
         sum
     }
@@ -133,8 +134,9 @@ impl<'r> TextCourse<'r> {
 }
 
 impl History for TextCourse<'_> {
-    fn times(&self) -> &[f64] {
-        &self.recorded.times
+    fn times(&self) -> Vec<Vec<f64>> {
+        let TextRecord { times, states, .. } = self.recorded;
+        states.iter().map(|(_, sensed)| sensed.at(times)).collect()
     }
 
     fn channels(&self) -> Vec<Channel> {
@@ -181,10 +183,12 @@ impl History for TextCourse<'_> {
 fn readings(recorded: &TextRecord, scatters: &[Scatter]) -> Vec<Option<Reading>> {
     let mut readings = vec![None; recorded.start.values().len()];
     let mut rates = Vec::new();
-    for ((place, values), scatter) in recorded.states.iter().zip(scatters) {
-        let Some(begins) = Beginning::of(&recorded.times, values, scatter.noise) else { continue };
-        let slope = (values[1] - values[0]) / (recorded.times[1] - recorded.times[0]);
-        readings[*place] = Some(as_far_as(begins.level, values[0]));
+    for ((place, sensed), scatter) in recorded.states.iter().zip(scatters) {
+        let (times, values) = (sensed.at(&recorded.times), &sensed.values);
+        let Some(begins) = Beginning::of(&times, values, scatter.noise) else { continue };
+        let slope = (values[1] - values[0]) / (times[1] - times[0]);
+        // What the first values by themselves say of the first sample of the record.
+        readings[*place] = Some(as_far_as(begins.level, values[0] - slope * times[0]));
         rates.push((*place, as_far_as(begins.rate, slope)));
     }
     let linear = linear_rates(recorded.parameters.model());

@@ -4,7 +4,7 @@ use capsulemap_text::described::period;
 
 use super::course::varies;
 use super::history::Channel;
-use super::recording::{GAP, Recording};
+use super::recording::{GAP, Recording, Sensed};
 use super::simulated_span::{check_span, check_wait};
 use crate::description::{Description, Parameters, State};
 use crate::motion::Case;
@@ -29,8 +29,8 @@ pub struct TextRecord {
     pub first: f64,
     /// Times since the first sample [s], the first of which is zero.
     pub times: Vec<f64>,
-    /// The states that were recorded by their places, with their values at those times.
-    pub states: Vec<(usize, Vec<f64>)>,
+    /// The states that were recorded by their places, with their values at those of the times at which they were.
+    pub states: Vec<(usize, Sensed)>,
 }
 
 impl TextRecord {
@@ -40,15 +40,15 @@ impl TextRecord {
     pub fn new(recording: &Recording, case: &Case) -> Result<TextRecord, String> {
         let model = case.parameters.model();
         let times = recording.required("t");
-        let states = model.coordinates.iter().enumerate();
-        let states = states.filter_map(|(place, it)| Some((place, recording.column(it.name)?)));
-        let states: Vec<(usize, Vec<f64>)> =
-            states.map(|(place, values)| (place, values.to_vec())).collect();
+        let mut states = Vec::new();
+        for (place, it) in model.coordinates.iter().enumerate() {
+            states.extend(recording.sensed(it.name).map(|sensed| (place, sensed.clone())));
+        }
         if states.is_empty() {
             return Err(no_state(model, &recording.others));
         }
-        for (place, values) in &states {
-            varies(model.coordinates[*place].name, values)?;
+        for (place, sensed) in &states {
+            varies(model.coordinates[*place].name, &sensed.values)?;
         }
         let first = times[0];
         let times: Vec<f64> = times.iter().map(|time| time - first).collect();
@@ -73,9 +73,9 @@ impl TextRecord {
             ));
         }
         self.times.truncate(count);
-        for (place, values) in &mut self.states {
-            values.truncate(count);
-            varies(self.parameters.model().coordinates[*place].name, values)?;
+        for (place, sensed) in &mut self.states {
+            *sensed = sensed.first(count);
+            varies(self.parameters.model().coordinates[*place].name, &sensed.values)?;
         }
         Ok(self)
     }
@@ -88,7 +88,7 @@ impl TextRecord {
 
     /// What makes its `recording` doubtful, in sentences.
     pub fn doubts(&self, recording: &Recording) -> Vec<String> {
-        let mut doubts = Vec::new();
+        let mut doubts = recording.notes.clone();
         if !recording.others.is_empty() {
             let (others, names) = (recording.others.join(", "), names(self.parameters.model()));
             doubts.push(format!("left out: {others}; the states are {names}"));

@@ -123,6 +123,7 @@ impl Bench {
             parameters[*parameter] *= if i % 2 == 0 { 1.1 } else { 0.9 };
         }
         let phase_error = phase.standard_error;
+        let signals = signals.into_iter().map(|(signal, values)| (signal, values.into())).collect();
         Recorded { parameters, times, phase: phase.value, phase_error, signals }
     }
 

@@ -105,8 +105,8 @@ impl Hostile {
         header + &rows.into_iter().collect::<String>()
     }
 
-    /// The numbers of the columns t, x2 and r by a reader of its own; none where a cell is no number, or where the text has
-    /// quotes or ends of lines that are read in more than one sense.
+    /// The numbers of the columns t, x2 and r by a reader of its own, r perhaps empty; none where a cell is no number, or where the text
+    /// has quotes or ends of lines that are read in more than one sense.
     fn numbers(&self, text: &str) -> Option<Option<[Vec<f64>; 3]>> {
         let plain = text.replace("\r\n", "\n");
         if plain.contains(['"', '\r']) {
@@ -114,19 +114,42 @@ impl Hostile {
         }
         let lines = plain.split('\n').skip(1).filter(|it| !it.is_empty() && !it.starts_with('#'));
         let mut columns = [const { Vec::new() }; 3];
+        let (mut has_point, mut has_comma) = (false, false);
         for line in lines {
             let cells: Vec<&str> = line.split(self.delimiter).map(str::trim).collect();
-            if cells.len() != 4 {
+            if cells.iter().all(|it| it.is_empty()) {
+                continue;
+            }
+            // What stands behind the columns may be empty.
+            if cells.len() < 4 || cells[4..].iter().any(|it| !it.is_empty()) {
                 return Some(None);
             }
+            let mut row = [None; 3];
             for (cell, column) in cells.iter().zip(self.order()).filter(|(_, column)| *column < 3) {
                 let size = HEADERS[column][self.headers[column]].1;
-                let value = cell.parse::<f64>().map(|it| it * size);
-                match value {
-                    Ok(value) if value.is_finite() => columns[column].push(value),
+                let is_comma = self.delimiter != ',' && cell.matches(',').count() == 1;
+                let plain = if is_comma { cell.replace(',', ".") } else { (*cell).to_owned() };
+                has_comma |= is_comma;
+                has_point |= cell.contains('.');
+                match plain.parse::<f64>().map(|it| it * size) {
+                    _ if cell.is_empty() => {}
+                    Ok(value) if value.is_nan() => {}
+                    Ok(value) if value.is_finite() => row[column] = Some(value),
                     _ => return Some(None),
                 }
             }
+            match row {
+                [None, ..] => return Some(None),
+                [Some(t), Some(x2), r] => {
+                    columns[0].push(t);
+                    columns[1].push(x2);
+                    columns[2].extend(r);
+                }
+                _ => {}
+            }
+        }
+        if has_point && has_comma {
+            return Some(None);
         }
         let rises = columns[0].windows(2).all(|pair| pair[0] < pair[1]);
         Some((rises && columns[0].len() >= 2).then_some(columns))
@@ -146,7 +169,10 @@ fn any_recording_is_read_to_its_own_numbers_or_refused() {
             (Ok(read), expected) => {
                 prop_assert!(read.rows() as u64 <= lines);
                 let found = ["t", "x2", "r"].map(|name| read.required(name).to_vec());
-                prop_assert!(found.iter().all(|it| it.len() == read.rows()));
+                prop_assert!(found[..2].iter().all(|it| it.len() == read.rows()));
+                let rows = &read.sensed("r").expect("read").rows;
+                prop_assert!(rows.len() == found[2].len() && rows.is_sorted_by(|a, b| a < b));
+                prop_assert!(rows.iter().all(|row| *row < read.rows()));
                 prop_assert!(found.iter().flatten().all(|it| it.is_finite()));
                 if let Some(expected) = expected {
                     let bits = |all: &[Vec<f64>; 3]| {

@@ -28,6 +28,7 @@ mod drawn_studies;
 #[allow(dead_code)]
 mod draws;
 mod experiments;
+mod exports;
 mod explore_answers;
 mod explore_branches;
 mod explore_changed;

@@ -36,7 +36,8 @@ fn recorded(parameters: &Parameters, phase: f64, rate: f64, cycles: f64, seed: u
     let exact = sampled(&motion, &times, &names, &[], 1e-12).expect("followed");
     let mut random = Random::new(seed);
     let mut noisy = |(values, (signal, noise)): (Vec<f64>, (Signal, f64))| {
-        (signal, values.iter().map(|it| it + noise * normal(&mut random)).collect())
+        let values = values.iter().map(|it| it + noise * normal(&mut random));
+        (signal, values.collect::<Vec<f64>>().into())
     };
     let signals: Vec<_> = exact.values.into_iter().zip(SENSORS).map(&mut noisy).collect();
     let (p_d, omega) = (parameters[Parameter::Pd], parameters[Parameter::Omega]);
