@@ -77,7 +77,7 @@ pub fn compare_text(
     case: &Case,
     protocol: &Protocol,
 ) -> Result<TextComparison, String> {
-    for state in &case.parameters.model().coordinates {
+    for state in case.parameters.model().coordinates {
         recording.whole(state.name)?;
     }
     let orbit = settle_case(case, &Protocol { history: None, ..*protocol });

@@ -3,6 +3,7 @@
 use super::*;
 use crate::description::Parameters;
 use crate::experiment::friction::coast_down;
+use crate::experiment::recording::Sensed;
 use crate::experiment::synthesis::{Laboratory, Noise, simple_tests};
 
 const SEEDS: u64 = 300;
@@ -97,8 +98,16 @@ fn recording(test: Test, seed: u64) -> Recording {
         Test::Motor => tests.motor.to_vec(),
     };
     let rows = columns[0].len();
-    let columns = test.columns().into_iter().zip(columns).collect();
-    Recording { source: "test.csv".to_owned(), others: Vec::new(), columns, rows }
+    let columns = test.columns().into_iter().zip(columns.into_iter().map(Sensed::from)).collect();
+    let lines = (2..).take(rows).collect();
+    Recording {
+        source: "test.csv".to_owned(),
+        others: Vec::new(),
+        notes: Vec::new(),
+        columns,
+        rows,
+        lines,
+    }
 }
 
 #[test]
