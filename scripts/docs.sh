@@ -11,7 +11,7 @@ pages=target/book/pages
 
 # What stands beside docs/ and is linked to from there.
 beside=(README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff LICENSE-APACHE LICENSE-MIT LICENSE-JOE-KUO
-    benches/README.md benches/records python/README.md python/names.md python/tutorial.ipynb studies systems results/gallery)
+    benches/README.md benches/records python/README.md python/names.md python/tutorial.ipynb studies systems)
 
 if ! [ "$("$tools/bin/mdbook" --version 2>/dev/null)" = "mdbook v$version" ]; then
     # Without its server, and quickly built, as it runs for a second.

@@ -11,5 +11,5 @@ $program identify "$work/rig" --m1 "0.11 kg" --m2 "0.53 kg" --output "$work/iden
 $program fit "$work/rig/motion.csv" --study studies/fig5.toml --vary "k2=1 kN/m..5 kN/m,mu_d=0.1..0.6,mu_s=0..0.6"
 $program compare "$work/rig/motion.csv" studies/fig5.toml --output "$work/comparison"
 
-mkdir -p results/gallery/experiment
-cp "$work/comparison.png" "$work/figures/coasting.png" "$work/figures/free-vibration.png" results/gallery/experiment/
+mkdir -p docs/pictures/experiment
+cp "$work/comparison.png" "$work/figures/coasting.png" "$work/figures/free-vibration.png" docs/pictures/experiment/

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets six figures, each as wide as a column of a journal (86 mm), on a page of two columns: results/gallery/page.pdf.
+# Sets six figures, each as wide as a column of a journal (86 mm), on a page of two columns: results/page.pdf.
 # It shows how figures of different kinds stand beside each other in a paper: the same fonts, line widths and frames.
 # Needs the results of the studies below, which it computes if they are not there (some five minutes on two cores), and
 # Python, for which it installs pypdf into target/figure-page.
@@ -34,7 +34,7 @@ figure three-ways --kind basin --height "72 mm" --name f
 
 [ -x "$work/python/bin/python" ] || python3 -m venv "$work/python"
 "$work/python/bin/pip" install --quiet --disable-pip-version-check pypdf==7.1.0
-"$work/python/bin/python" - "$work" results/gallery/page.pdf <<'PYTHON'
+"$work/python/bin/python" - "$work" results/page.pdf <<'PYTHON'
 import sys
 
 from pypdf import PageObject, PdfReader, PdfWriter
@@ -54,4 +54,4 @@ writer = PdfWriter()
 writer.add_page(page)
 writer.write(page_path)
 PYTHON
-echo results/gallery/page.pdf
+echo results/page.pdf

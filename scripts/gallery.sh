@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Writes docs/gallery.md, a gallery: each kind of figure with the part of the study that draws it, and what can be set.
-# Draws the pictures of the latter into results/gallery/ from the studies overview and hysteresis (some two minutes on two
+# Draws the pictures of the latter into docs/pictures/ from the studies overview and hysteresis (some two minutes on two
 # cores); with --page it writes the page alone. All pictures of kinds are those of the studies themselves, taken from the folders
 # of their results where those are there.
 set -euo pipefail
@@ -23,7 +23,7 @@ asked() {
 
 # A kind of figure: kind, what it shows, study, name of the figure, picture.
 kind() {
-    printf '## %s\n\n%s\n\n![%s](../results/gallery/%s)\n\n[studies/%s.toml](../studies/%s.toml):\n\n```toml\n%s\n```\n\n' \
+    printf '## %s\n\n%s\n\n![%s](pictures/%s)\n\n[studies/%s.toml](../studies/%s.toml):\n\n```toml\n%s\n```\n\n' \
         "$1" "$2" "$1" "$5" "$3" "$3" "$(asked "$3" "$4")"
 }
 
@@ -38,10 +38,10 @@ setting() {
         *) shown+=" $option" ;;
         esac
     done
-    printf '### %s\n\n%s\n\n![%s](../results/gallery/%s.png)\n\n```sh\ncapsulemap figure%s\n```\n\n' \
+    printf '### %s\n\n%s\n\n![%s](pictures/%s.png)\n\n```sh\ncapsulemap figure%s\n```\n\n' \
         "$heading" "$words" "$heading" "$name" "$shown"
     if [ "$draw" = yes ]; then
-        "$program" figure "$@" --name "$name" --folder results/gallery --formats png --overwrite >&2
+        "$program" figure "$@" --name "$name" --folder docs/pictures --formats png --overwrite >&2
     fi
 }
 
@@ -57,8 +57,8 @@ else
     # Its diagram shows the branches, too.
     "$program" continue studies/hysteresis.toml
     # Runs draw into folders that git ignores.
-    for picture in results/gallery/*/*.png; do
-        drawn=results/${picture#results/gallery/}
+    for picture in docs/pictures/*/*.png; do
+        drawn=results/${picture#docs/pictures/}
         [ ! -f "$drawn" ] || cp "$drawn" "$picture"
     done
 fi

@@ -34,6 +34,9 @@ CASES=10000 cargo test --release --test it -- wide_box --nocapture
 echo "== basins of a flow are Wada to a few starts on 600 starts a side; intervals of where motions go when a parameter steps, in 1000 sets of draws"
 WADA_SIDE=600 TIPPING_SEEDS=1000 cargo test --release --test it -p capsulemap -- wada tipping --nocapture
 
+echo "== a thousand points of the boundary of basins, as curves, against brackets of two starts: the capsule's, and Duffing's two wells by a second integrator"
+MANIFOLD_POINTS=1000 cargo test --release --test it -p capsulemap -- manifolds --nocapture
+
 echo "== invariants of 4096 motions over the whole box"
 PROPTEST_CASES=4096 cargo test --release --test it -- invariants --nocapture
 
