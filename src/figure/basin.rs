@@ -193,8 +193,8 @@ impl<'a> Basins<'a> {
             panel.curve(canvas, ends, SURFACE);
         }
         self.curves.draw(canvas, panel);
-        draw_saddles(canvas, panel, &self.saddles);
         draw_section_points(canvas, panel, &self.points);
+        draw_saddles(canvas, panel, &self.saddles);
         panel.record(canvas, "saddles on the boundary", self.saddles.iter().copied());
     }
 

@@ -1,9 +1,10 @@
 //! The cases that have a panel each: the values of an axis, or those at which `at` holds axes.
 
 use super::error::FigureError;
+use super::outcome::Outcomes;
 use super::text::Text;
 use super::view::View;
-use crate::store::catalogue::HISTORY_TIME;
+use crate::store::catalogue::{HISTORY_TIME, PERIOD};
 
 /// Cases that one page has room for.
 const MOST_CASES: usize = 12;
@@ -19,6 +20,16 @@ pub struct CasePanel<'a> {
 }
 
 impl<'a> CasePanel<'a> {
+    /// The period of its orbit in cycles, where the results tell one.
+    pub fn period(&self) -> Result<Option<usize>, FigureError> {
+        if self.view.dataset.variable(PERIOD.name).is_none() {
+            return Ok(None);
+        }
+        let is_periodic = Outcomes::over(&self.view, &self.free)?.periodic(self.case);
+        let period = self.view.take(PERIOD.name, &self.free)?.iter().nth(self.case).copied();
+        Ok(period.filter(|it| is_periodic && *it >= 1.0).map(|it| it as usize))
+    }
+
     /// Which case it is, for the heading of its panel.
     pub fn note(&self) -> Option<Text> {
         let own = self.free.first().map(|name| self.view.value_note(name, self.case));

@@ -318,7 +318,7 @@ pub fn paint(view: &View<'_>, cases: &Cases<'_>) -> Result<Option<Paint>, Figure
     let Some(by) = by else { return Ok(None) };
     let lengths = cases.free.iter().map(|axis| view.coordinate_values(axis).len());
     let count = lengths.product();
-    Paint::of(view, std::slice::from_ref(view), by, &cases.free, count).map(Some)
+    Paint::of(view, std::slice::from_ref(view), by, &cases.free, &vec![true; count]).map(Some)
 }
 
 /// A note where no case and no orbit lies within the limits of the abscissa.

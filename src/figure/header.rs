@@ -65,7 +65,7 @@ const POINT_WIDTH: f64 = 6.0;
 /// Distance between a mark and its text [pt].
 const MARK_GAP: f64 = 3.0;
 /// Distance between lines of a header [pt].
-const HEADER_LINE: f64 = 10.5;
+pub const HEADER_LINE: f64 = 10.5;
 /// Distance between entries of a legend [pt].
 const ENTRY_GAP: f64 = 9.0;
 
@@ -86,14 +86,8 @@ impl Header {
         let lines = self.legend_lines(frame.width());
         let several = lines.len() > 1;
         for (line, entries) in lines.into_iter().rev().enumerate() {
-            let mut at = if several { frame.left } else { frame.right - legend_width(entries) };
-            let baseline = baseline - line as f64 * HEADER_LINE;
-            for (mark, words) in entries {
-                draw_mark(canvas, *mark, (at, baseline - 0.3 * SMALL_SIZE));
-                at += mark.width() + MARK_GAP;
-                canvas.text(words, (at, baseline), SMALL_SIZE, Anchor::Start);
-                at += words.width(SMALL_SIZE) + ENTRY_GAP;
-            }
+            let left = if several { frame.left } else { frame.right - legend_width(entries) };
+            draw_entries(canvas, entries, (left, baseline - line as f64 * HEADER_LINE));
         }
     }
 
@@ -121,14 +115,7 @@ impl Header {
         if is_short && self.left_width() + legend_width(&self.legend) <= width {
             return vec![&self.legend];
         }
-        let mut lines = Vec::new();
-        let mut rest = self.legend.as_slice();
-        while !rest.is_empty() {
-            let mut counts = (1..=rest.len()).rev();
-            let count = counts.find(|count| legend_width(&rest[..*count]) <= width).unwrap_or(1);
-            lines.push(&rest[..count]);
-            rest = &rest[count..];
-        }
+        let mut lines = in_lines(&self.legend, width);
         let below = if self.left_width() > 0.0 { self.note_lines(width).len().max(1) } else { 0 };
         lines.extend(std::iter::repeat_n(&[] as &[Entry], below));
         lines
@@ -148,8 +135,32 @@ fn letter_text(letter: char) -> Text {
     Text::bold(&format!("({letter})"))
 }
 
+/// Entries in lines that fit `width` [pt].
+pub fn in_lines(legend: &[Entry], width: f64) -> Vec<&[Entry]> {
+    let mut lines = Vec::new();
+    let mut rest = legend;
+    while !rest.is_empty() {
+        let mut counts = (1..=rest.len()).rev();
+        let count = counts.find(|count| legend_width(&rest[..*count]) <= width).unwrap_or(1);
+        lines.push(&rest[..count]);
+        rest = &rest[count..];
+    }
+    lines
+}
+
+/// Draws entries in a line, from the left end of its baseline.
+pub fn draw_entries(canvas: &mut Canvas, entries: &[Entry], (left, baseline): Point) {
+    let mut at = left;
+    for (mark, words) in entries {
+        draw_mark(canvas, *mark, (at, baseline - 0.3 * SMALL_SIZE));
+        at += mark.width() + MARK_GAP;
+        canvas.text(words, (at, baseline), SMALL_SIZE, Anchor::Start);
+        at += words.width(SMALL_SIZE) + ENTRY_GAP;
+    }
+}
+
 /// Width of a legend in a row [pt].
-fn legend_width(legend: &[Entry]) -> f64 {
+pub fn legend_width(legend: &[Entry]) -> f64 {
     let entries =
         legend.iter().map(|(mark, words)| mark.width() + MARK_GAP + words.width(SMALL_SIZE));
     entries.sum::<f64>() + legend.len().saturating_sub(1) as f64 * ENTRY_GAP

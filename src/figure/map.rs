@@ -78,15 +78,16 @@ pub(super) fn paint(
     plane: &Plane<'_>,
 ) -> Result<Paint, FigureError> {
     let (output, free) = (&output(view.drawing, view.model()), plane.free());
+    let seen = plane.seen(view);
     match (view.drawing.sweep, panels) {
         (Some(Sweep::Difference), [first]) => {
             let second = first.swept(Direction::Downward)?;
-            Paint::of_difference([first, &second], output, &free, plane.count())
+            Paint::of_difference([first, &second], output, &free, &seen)
         }
         (Some(Sweep::Difference), _) => {
             Err(view.unfit("the difference of two sweeps has one panel, and `at` asks for several"))
         }
-        _ => Paint::of(view, panels, output, &free, plane.count()),
+        _ => Paint::of(view, panels, output, &free, &seen),
     }
 }
 

@@ -9,6 +9,7 @@ mod basin;
 mod basin_colours;
 mod bifurcation;
 mod canvas;
+mod caption;
 mod category;
 mod chosen;
 mod cells;

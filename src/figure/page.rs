@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::axis::{Along, Axis, AxisRequest};
 use super::canvas::{Anchor, Canvas};
+use super::caption::Caption;
 use super::data::Data;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
@@ -140,6 +141,13 @@ impl<'a> PageRequest<'a> {
                 request.header.legend.retain(|(mark, _)| *mark == Mark::Nothing);
             }
         }
+        // Tables below the panels have their marks explained beside them.
+        let inner = self.width() - 2.0 * BORDER;
+        let caption = match self.bottom_room > 0.0 {
+            true => Caption::default(),
+            false => Caption::taken_from(&mut self.rows, inner),
+        };
+        self.bottom_room += caption.room(inner);
         let wanted = self.drawing.height_mm.map(|height| height * POINTS_PER_MM);
         let Arrangement { size: [width, height], title, frames } = self.arrange_within(wanted);
         let mut canvas = Canvas::new(width, wanted.unwrap_or(height));
@@ -151,6 +159,7 @@ impl<'a> PageRequest<'a> {
             let baseline = BORDER + (line as f64 + 0.8) * TITLE_LINE;
             canvas.text(words, (width / 2.0, baseline), TITLE_SIZE, Anchor::Middle);
         }
+        caption.draw(&mut canvas, [width, wanted.unwrap_or(height)]);
         let mut panels = self.place_panels(frames);
         self.keep_texts_inside(&mut canvas, &mut panels);
         canvas.data = self.drawing.data.then(|| data_of(&panels));
@@ -206,9 +215,7 @@ impl<'a> PageRequest<'a> {
 
     /// Finds a place for everything.
     fn arrange(&self) -> Arrangement {
-        let wanted = self.drawing.width_mm.unwrap_or(self.width_mm);
-        let (least, most) = Size::Width.range();
-        let width = wanted.clamp(least, most) * POINTS_PER_MM;
+        let width = self.width();
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(1).max(1);
         let title = self.title_lines(width);
         let lefts = self.left_rooms(columns);
@@ -239,6 +246,13 @@ impl<'a> PageRequest<'a> {
             top += above + height + below;
         }
         Arrangement { size: [width, top + self.bottom_room + BORDER - 1.0], title, frames }
+    }
+
+    /// The width of the page [pt].
+    fn width(&self) -> f64 {
+        let wanted = self.drawing.width_mm.unwrap_or(self.width_mm);
+        let (least, most) = Size::Width.range();
+        wanted.clamp(least, most) * POINTS_PER_MM
     }
 
     fn title_lines(&self, width: f64) -> Vec<Text> {

@@ -29,14 +29,15 @@ pub enum Paint {
 
 impl Paint {
     /// The colours of the cases of one panel after the other, of which each has so many over its axes `free`, by an output, by
-    /// kinds, or by an axis.
+    /// kinds, or by an axis; they span the values of the cases that are seen.
     pub fn of(
         view: &View<'_>,
         panels: &[View<'_>],
         name: &str,
         free: &[&str],
-        cases: usize,
+        seen: &[bool],
     ) -> Result<Paint, FigureError> {
+        let cases = seen.len();
         if category::is_sorted(view, name) {
             return Ok(Paint::Kinds(Kinds::of(view, panels, name, free)?));
         }
@@ -58,7 +59,7 @@ impl Paint {
                 let values: Vec<f64> = values.iter().map(|it| it * quantity.factor).collect();
                 Some(Colours::for_axis(&values, quantity))
             }
-            false => Colours::for_values(&all, quantity),
+            false => Colours::for_values(&of_seen(&all, seen), quantity),
         };
         Ok(Paint::Numbers(colours, all, all_inferred))
     }
@@ -68,8 +69,9 @@ impl Paint {
         [first, second]: [&View<'_>; 2],
         name: &str,
         free: &[&str],
-        cases: usize,
+        seen: &[bool],
     ) -> Result<Paint, FigureError> {
+        let cases = seen.len();
         if category::is_sorted(first, name) {
             return Ok(Paint::Kinds(Kinds::of_difference([first, second], name, free)?));
         }
@@ -81,7 +83,7 @@ impl Paint {
         let [a, b] = inferred;
         let inferred = a?.into_iter().zip(b?).map(|(a, b)| a || b).collect();
         let quantity = first.quantity(name).followed_by(DIFFERENCE);
-        Ok(Paint::Numbers(Colours::for_values(&values, quantity), values, inferred))
+        Ok(Paint::Numbers(Colours::for_values(&of_seen(&values, seen), quantity), values, inferred))
     }
 
     /// The colour of a case; none where it has no value.
@@ -181,6 +183,12 @@ impl Paint {
         }
         legend
     }
+}
+
+/// The values of the cases that are seen of each panel.
+fn of_seen(values: &[f64], seen: &[bool]) -> Vec<f64> {
+    let values = values.iter().zip(seen.iter().cycle());
+    values.filter(|(_, seen)| **seen).map(|(value, _)| *value).collect()
 }
 
 /// The numbers of cases over the axes `free` in the unit shown; cases that failed have none.

@@ -1,5 +1,7 @@
 //! Poincaré sections of one case: the stroboscopic one, and the one at the impacts.
 
+use std::f64::consts::TAU;
+
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn};
 use super::cloud::{self, Dot};
@@ -19,6 +21,8 @@ use crate::study::Drawing;
 
 /// Height of the frames [pt].
 const HEIGHT: f64 = 165.0;
+/// The unit of phases in files.
+const RADIANS: &str = "rad";
 /// Width below which sections do not stand beside each other [mm].
 const NARROW: f64 = 120.0;
 
@@ -164,7 +168,27 @@ fn at_impacts(view: &View<'_>) -> Result<Option<Section>, FigureError> {
     let factor = quantities[1].factor;
     let values = Motion::sampled(view, &[], 0).at_impacts(ordinate)?;
     let values = values.into_iter().map(|value| value * factor).collect();
-    Ok(Some(section_of("kept impact", quantities, shown(view, first)?, values)))
+    let turn = TAU * quantities[0].factor;
+    let firsts = shown(view, first)?;
+    let firsts = if first.unit == RADIANS { cut_in_gap(firsts, turn) } else { firsts };
+    Ok(Some(section_of("kept impact", quantities, firsts, values)))
+}
+
+/// Phases from 0 to a whole `turn`, cut where the widest gap between them is, so that those around zero stay together: what lies
+/// beyond the gap is one turn less.
+fn cut_in_gap(phases: Vec<f64>, turn: f64) -> Vec<f64> {
+    let mut sorted: Vec<f64> = phases.iter().copied().filter(|it| it.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return phases };
+    let across_zero = first + turn - last;
+    let gaps = sorted.windows(2).map(|pair| (pair[1] - pair[0], (pair[0] + pair[1]) / 2.0));
+    let widest = gaps.max_by(|a, b| a.0.total_cmp(&b.0));
+    match widest.filter(|(gap, _)| *gap > across_zero) {
+        None => phases,
+        Some((_, cut)) => {
+            phases.into_iter().map(|it| if it > cut { it - turn } else { it }).collect()
+        }
+    }
 }
 
 /// The numbers of a case, in the units of the figure.
@@ -177,4 +201,23 @@ fn section_of(name: &'static str, quantities: [Quantity; 2], x: Vec<f64>, y: Vec
     let both = x.into_iter().zip(y).map(|(x, y)| [x, y]);
     let points: Vec<[f64; 2]> = both.filter(|at| at.iter().all(|it| it.is_finite())).collect();
     Section { name, quantities, points }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phases_are_cut_where_there_are_none() {
+        let near = |found: Vec<f64>, expected: &[f64]| {
+            assert_eq!(found.len(), expected.len());
+            let both = found.iter().zip(expected);
+            assert!(both.clone().all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {expected:?}");
+        };
+        near(cut_in_gap(vec![0.1, 6.2, 0.2, 6.1], TAU), &[0.1, 6.2 - TAU, 0.2, 6.1 - TAU]);
+        near(cut_in_gap(vec![1.0, 2.0, 5.0], TAU), &[1.0, 2.0, 5.0]);
+        near(cut_in_gap(vec![10.0, 350.0, 355.0], 360.0), &[10.0, -10.0, -5.0]);
+        near(cut_in_gap(vec![3.0], TAU), &[3.0]);
+        near(cut_in_gap(Vec::new(), TAU), &[]);
+    }
 }

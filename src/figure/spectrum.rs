@@ -12,20 +12,23 @@ use super::error::FigureError;
 use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::motion::{Motion, sources};
+use super::outcome;
 use super::page::{PageRequest, PanelRequest, in_rows, letter};
 use super::panel::Panel;
-use super::scale::{Scale, Spacing};
+use super::scale::{Scale, Spacing, finite_range};
 use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, REFERENCE_WIDTH};
 use super::text::Text;
 use super::view::View;
 use crate::description::{Description, SignalKind};
-use crate::store::catalogue::{Entry, SPECTRUM_FREQUENCY};
+use crate::store::catalogue::{Entry, PERIOD, SPECTRUM_FREQUENCY};
 use crate::study::Drawing;
 
 /// Height of a frame [pt].
 const HEIGHT: f64 = 100.0;
 /// Amplitudes down to this share of the largest are shown, unless limits are set.
 const SHOWN: f64 = 1e-6;
+/// By how much of its range a history may miss itself a period later and still repeat.
+const MISSED: f64 = 1e-6;
 /// Frequencies are shown up to the last amplitude of this share of the largest, unless limits are set.
 const REACH: f64 = 1e-3;
 
@@ -40,12 +43,13 @@ fn outputs(drawing: &Drawing, model: &'static Description) -> Vec<String> {
     }
 }
 
-/// What a spectrum reads: the motion, and the frequency of the drive.
+/// What a spectrum reads: the motion, the frequency of the drive, and whether the motion repeats.
 fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let outputs = outputs(drawing, model);
     let needed: Vec<Entry> = outputs.iter().flat_map(|name| sources(name, model)).collect();
     let frequency = model.drive_frequency().map(Entry::of_parameter);
-    Names::of(needed).and(frequency).and_named(outputs)
+    let repeating = outcome::READS.into_iter().chain([PERIOD]);
+    Names::of(needed).and(frequency).and(repeating).and_named(outputs)
 }
 
 /// The spectrum of a quantity of a case, in the units of the figure.
@@ -55,8 +59,28 @@ struct Spectrum {
     lines: Vec<(f64, f64)>,
     /// The frequency of the drive.
     drive: f64,
-    /// Cycles that it is taken over.
-    cycles: usize,
+    /// What it is taken over.
+    span: Span,
+}
+
+/// What a spectrum is taken over.
+#[derive(Clone, Copy, PartialEq)]
+enum Span {
+    /// A period of a history that repeats, of so many cycles: its lines are those of the motion.
+    Period(usize),
+    /// So many whole cycles, with a Hann window.
+    Windowed(usize),
+}
+
+impl Span {
+    /// In words.
+    fn told(self) -> String {
+        let (count, words) = match self {
+            Span::Period(count) => (count, "lines of the period of"),
+            Span::Windowed(count) => (count, "Hann window over"),
+        };
+        format!("{words} {count} cycle{}", if count == 1 { "" } else { "s" })
+    }
 }
 
 /// What a figure of spectra shows.
@@ -77,7 +101,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let x = AxisRequest::new(view.quantity(SPECTRUM_FREQUENCY.name), frequencies);
         let y = view.quantity(&spectrum.output).preceded_by("Amplitude of");
         let y = AxisRequest::new(y, spectrum.amplitudes());
-        let legend = if index == 0 { legend(view, spectrum) } else { Vec::new() };
+        let legend = spectrum.legend(view, index.checked_sub(1).map(|before| &spectra[before]));
         requests.push(PanelRequest {
             x: AxisRequest { labelled: index + columns >= spectra.len(), ..x },
             y: AxisRequest { empty: spectrum.lines.is_empty(), ..y },
@@ -94,7 +118,9 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         spectrum.draw(&mut canvas, panel, view.shows("drive"));
     }
     let about = view.about(&outputs, &[]);
-    Ok(canvas.finish(&format!("{about}: amplitudes of the spectrum, with a Hann window")))
+    let mut spans: Vec<String> = spectra.iter().map(|it| it.span.told()).collect();
+    spans.dedup();
+    Ok(canvas.finish(&format!("{about}: amplitudes of the spectrum ({})", spans.join(", "))))
 }
 
 impl<'a> Spectra<'a> {
@@ -114,13 +140,6 @@ impl<'a> Spectra<'a> {
 
 /// The line at the frequency of the drive.
 const DRIVE: Stroke = Stroke::dashed(FAINT_INK, REFERENCE_WIDTH);
-
-fn legend(view: &View<'_>, spectrum: &Spectrum) -> Vec<(Mark, Text)> {
-    let cycles = spectrum.cycles;
-    let over = format!("Hann window over {cycles} cycles");
-    let drive = view.shows("drive").then(|| (Mark::Line(DRIVE), Text::plain("drive")));
-    drive.into_iter().chain([(Mark::Nothing, Text::plain(&over))]).collect()
-}
 
 impl Spectrum {
     /// The spectrum of a quantity over as many whole cycles as its history has.
@@ -146,12 +165,32 @@ impl Spectrum {
         let omega = motion.frequency()?;
         let drive = omega * view.quantity(SPECTRUM_FREQUENCY.name).factor;
         let goes_on = kind == Some(SignalKind::Drifting);
+        let period = panel.period()?.filter(|it| *it as f64 <= cycles);
+        let repeats = period.map(|it| (it, (it as f64 / step).round() as usize));
+        let repeats = repeats.filter(|(_, count)| repeats_after(&values, *count, goes_on));
+        let (span, samples) = match repeats {
+            Some((period, count)) => (Span::Period(period), level(&values, count, goes_on)),
+            None => {
+                let samples = level(&values, count, goes_on);
+                (Span::Windowed(cycles as usize), windowed(&samples))
+            }
+        };
         // A case that failed has no motion.
         let lines = match values.iter().all(|value| value.is_finite()) {
-            true => amplitudes(&level(&values, count, goes_on), cycles, drive),
+            true => amplitudes(samples, span, drive),
             false => Vec::new(),
         };
-        Ok(Spectrum { output: output.to_owned(), lines, drive, cycles: cycles as usize })
+        Ok(Spectrum { output: output.to_owned(), lines, drive, span })
+    }
+
+    /// What its marks mean, as far as those of the spectrum before do not say it.
+    fn legend(&self, view: &View<'_>, before: Option<&Spectrum>) -> Vec<(Mark, Text)> {
+        let drive = (view.shows("drive") && before.is_none())
+            .then(|| (Mark::Line(DRIVE), Text::plain("drive")));
+        let span = before
+            .is_none_or(|it| it.span != self.span)
+            .then(|| (Mark::Nothing, Text::plain(&self.span.told())));
+        drive.into_iter().chain(span).collect()
     }
 
     /// Draws the amplitudes, and a line at the frequency of the drive if it is shown.
@@ -160,7 +199,16 @@ impl Spectrum {
             let drive = [(self.drive, panel.y.scale.low), (self.drive, panel.y.scale.high)];
             panel.curve(canvas, &drive, DRIVE);
         }
-        panel.curve(canvas, &self.lines, Stroke::solid(BLUE, CURVE_WIDTH));
+        let stroke = Stroke::solid(BLUE, CURVE_WIDTH);
+        match self.span {
+            Span::Windowed(_) => panel.curve(canvas, &self.lines, stroke),
+            Span::Period(_) => {
+                let low = panel.y.scale.low;
+                for &(frequency, amplitude) in self.lines.iter().filter(|line| line.1 > low) {
+                    panel.curve(canvas, &[(frequency, low), (frequency, amplitude)], stroke);
+                }
+            }
+        }
         panel.record(canvas, &self.output, self.lines.iter().copied());
         panel.finish(canvas);
     }
@@ -199,21 +247,34 @@ fn level(samples: &[f64], count: usize, goes_on: bool) -> Vec<f64> {
     whole_cycles.map(|(at, value)| value - advance * at as f64).collect()
 }
 
-/// Frequencies with the amplitudes of samples over whole cycles, where the drive has the frequency `drive`.
+/// Whether a history is the same so many samples later, but for the mean advance of what goes on.
+fn repeats_after(samples: &[f64], count: usize, goes_on: bool) -> bool {
+    let later = samples.iter().skip(count);
+    let advance = if goes_on { samples[count] - samples[0] } else { 0.0 };
+    let range = finite_range(samples.iter().copied()).map_or(f64::NAN, |(low, high)| high - low);
+    samples.iter().zip(later).all(|(a, b)| (b - advance - a).abs() <= MISSED * range)
+}
+
+/// Samples over whole cycles without their mean, times the Hann window, doubled so that its mean is one.
+fn windowed(samples: &[f64]) -> Vec<f64> {
+    let count = samples.len() as f64;
+    let mean = samples.iter().sum::<f64>() / count;
+    let window = |at: usize| 1.0 - (TAU * at as f64 / count).cos();
+    samples.iter().enumerate().map(|(at, value)| (value - mean) * window(at)).collect()
+}
+
+/// Frequencies with the amplitudes of samples, where the drive has the frequency `drive`.
 ///
-/// Method: the mean is taken off; a Hann window; amplitudes are those of sinusoids that fit the cycles, which also show with half
-/// their amplitude on both sides.
-fn amplitudes(samples: &[f64], cycles: f64, drive: f64) -> Vec<(f64, f64)> {
+/// Of a period they are those of the terms of its Fourier series; through the window those of sinusoids that fit the cycles,
+/// which also show with half their amplitude on both sides.
+fn amplitudes(samples: Vec<f64>, span: Span, drive: f64) -> Vec<(f64, f64)> {
+    let (Span::Period(cycles) | Span::Windowed(cycles)) = span;
     let count = samples.len();
-    let mean = samples.iter().sum::<f64>() / count as f64;
-    let mut windowed = Vec::with_capacity(count);
-    for (at, value) in samples.iter().enumerate() {
-        let window = 0.5 - 0.5 * (TAU * at as f64 / count as f64).cos();
-        windowed.push(Complex::new((value - mean) * window, 0.0));
-    }
-    FftPlanner::new().plan_fft_forward(count).process(&mut windowed);
-    // The window's mean is a half, and a sinusoid has half its amplitude at a positive frequency.
+    let mut terms: Vec<Complex<f64>> =
+        samples.into_iter().map(|it| Complex::new(it, 0.0)).collect();
+    FftPlanner::new().plan_fft_forward(count).process(&mut terms);
+    // A sinusoid has half its amplitude at a positive frequency.
     (1..count.div_ceil(2))
-        .map(|at| (at as f64 / cycles * drive, 4.0 * windowed[at].norm() / count as f64))
+        .map(|at| (at as f64 / cycles as f64 * drive, 2.0 * terms[at].norm() / count as f64))
         .collect()
 }

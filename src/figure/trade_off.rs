@@ -220,5 +220,5 @@ fn paint(view: &View<'_>, free: &[&str]) -> Result<Option<Paint>, FigureError> {
     let wanted = view.drawing.colour_by.as_deref().or(view.drawing.x.as_deref());
     let Some(name) = wanted.or_else(|| varying.next()) else { return Ok(None) };
     let cases = free.iter().map(|axis| view.coordinate_values(axis).len()).product();
-    Paint::of(view, std::slice::from_ref(view), name, free, cases).map(Some)
+    Paint::of(view, std::slice::from_ref(view), name, free, &vec![true; cases]).map(Some)
 }

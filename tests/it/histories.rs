@@ -158,6 +158,36 @@ fn a_spectrum_has_the_amplitudes_of_the_sinusoids_that_make_a_motion() {
 }
 
 #[test]
+fn a_spectrum_of_what_repeats_has_the_terms_of_its_fourier_series() {
+    let folder = super::figure::folder("terms");
+    let drawn = |period: i64| {
+        let fixture =
+            Fixture::default().real("omega", &[], |_| 20.0).integer("period", &[], &[], |_| period);
+        let dataset = with_history(fixture, &[], 6.0, 3001).0;
+        let of = vec!["history_r".to_owned()];
+        let request = Drawing { of, data: true, ..Drawing::new("s", DrawingKind::Spectrum) };
+        let files = draw(&dataset, &request, &into(&folder, &[Format::Svg])).expect("drawn");
+        series(&fs::read_to_string(&files.paths[1]).expect("a file"))[&(1, "history_r".to_owned())]
+            .clone()
+    };
+    // The motion repeats after each cycle, and so after two; a period of more cycles than the history has does not show.
+    for period in [1, 2] {
+        for (at, (frequency, amplitude)) in drawn(period).into_iter().enumerate() {
+            let multiple = (at + 1) as f64 / period as f64;
+            assert!((frequency - multiple * 20.0 / TAU).abs() < 1e-9 * frequency);
+            let expected = match multiple {
+                1.0 => 1.3,
+                3.0 => 0.35,
+                _ => 0.0,
+            };
+            assert!((amplitude - expected).abs() < 1e-12, "{frequency} {amplitude} {expected}");
+        }
+    }
+    assert_eq!(drawn(7)[4].1, drawn(0)[4].1);
+    assert!((drawn(7)[4].1 - 0.65).abs() < 1e-9);
+}
+
+#[test]
 fn between_samples_the_motion_is_computed_and_not_joined_by_lines() {
     let dir = WorkDir::new();
     let variables = ["history_r", "history_y1", "history_y2"].map(str::to_owned);
