@@ -65,7 +65,7 @@ pub struct Figure {
     #[arg(long, value_name = "FROM,TO", value_delimiter = ',', requires = "kind")]
     cycles: Vec<f64>,
     /// Measured points over a bifurcation diagram: a CSV file with a column of its axis and one for each measured output, with
-    /// their units, as "omega [rad/s],progression_speed [mm/s]".
+    /// their units, as "omega [rad/s],progression_speed [mm/s]"; a column as progression_speed_error has their errors.
     #[arg(long, value_name = "FILE.csv", requires = "kind")]
     points: Option<PathBuf>,
     #[command(flatten)]
@@ -282,7 +282,13 @@ fn measured(path: &Path, archive: &Archive) -> Result<Measured, Failure> {
         let dimension = dimension(archive, name).ok()?;
         Some(Column { name, dimension, presence: Presence::Optional })
     });
-    let known: Vec<Column> = known.collect();
+    let mut known: Vec<Column> = known.collect();
+    for column in known.clone() {
+        let name = catalogue::lasting(format!("{}_error", column.name));
+        if known.iter().all(|it| it.name != name) {
+            known.push(Column { name, ..column });
+        }
+    }
     let recording = files::recording(path, &known, 1)?;
     let mut columns = Vec::new();
     for Column { name, .. } in known {

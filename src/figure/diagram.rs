@@ -274,7 +274,7 @@ impl<'a> Diagram<'a> {
             if let (true, Some(dot)) = (legend.is_empty(), first) {
                 legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("simulated")));
             }
-            legend.push(MeasuredPoints::legend());
+            legend.push(measured.legend());
         }
         legend
     }

@@ -20,7 +20,8 @@ impl<'a> From<&'a Dataset> for Shown<'a> {
     }
 }
 
-/// Points that were measured: a column for each quantity, by its name in files of results, all as long as each other [SI].
+/// Points that were measured: a column for each quantity, by its name in files of results, all as long as each other [SI]; with `_error`
+/// behind its name how far its values may be off.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
     /// The columns.

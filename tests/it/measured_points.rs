@@ -29,8 +29,13 @@ const COMMON: [&str; 10] = [
 
 /// The rows of measured points in the data of a figure: abscissa and ordinate.
 fn measured(data: &str) -> Vec<(f64, f64)> {
+    rows(data, "measured")
+}
+
+/// The rows of a series.
+fn rows(data: &str, series: &str) -> Vec<(f64, f64)> {
     let cells = data.lines().map(|line| line.split(',').collect());
-    let rows = cells.filter(|cells: &Vec<&str>| cells.get(1) == Some(&"measured"));
+    let rows = cells.filter(|cells: &Vec<&str>| cells.get(1) == Some(&series));
     rows.map(|it| (it[2].parse().expect("a number"), it[3].parse().expect("a number"))).collect()
 }
 
@@ -65,7 +70,28 @@ fn measured_points_stand_over_a_diagram_in_its_units() {
     let (_, points, svg) =
         draw(&["--of", "section_r,progression_speed", "--unit", "omega=Hz", "--svg-text"]);
     near(&points, &[(18.0, 2.0), (20.0, -4.0), (33.0, 50.0)]);
-    assert!(svg.contains("measured"));
+    assert!(svg.contains("measured") && !svg.contains("with errors"));
+
+    // Errors stand as bars along both axes, where a row has one, and the axes reach to their ends.
+    work.put(
+        "rig.csv",
+        "omega (Hz),omega_error (Hz),progression_speed (m/s),progression_speed_error (mm/s)\n\
+         18,0.5,0.002,30\n20,0,-0.004,4\n",
+    );
+    let ran =
+        work.run(&[&COMMON[..], &["--points", "rig.csv", "--of", "progression_speed"]].concat());
+    ran.done();
+    let data = fs::read_to_string(work.path("it.csv")).expect("written");
+    near(&measured(&data), &[(18.0 * turns, 2.0), (20.0 * turns, -4.0)]);
+    let ends = [
+        (17.5 * turns, 2.0),
+        (18.5 * turns, 2.0),
+        (18.0 * turns, -28.0),
+        (18.0 * turns, 32.0),
+        (20.0 * turns, -8.0),
+        (20.0 * turns, 0.0),
+    ];
+    near(&rows(&data, "ends of measured errors"), &ends);
 }
 
 #[test]
