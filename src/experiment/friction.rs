@@ -120,7 +120,7 @@ fn misfits(speeds: &[f64], coefficients: &[f64], residuals: &[f64]) -> Vec<Strin
             "the Coulomb-Stribeck law does not describe the change of friction with speed (chance {chance:.1e})"
         ));
     }
-    all.extend(outliers(residuals, 2).iter().map(Outlier::to_string));
+    all.extend(outliers(residuals, 2, 0.0).iter().map(Outlier::to_string));
     all
 }
 

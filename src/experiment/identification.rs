@@ -14,6 +14,7 @@ use super::estimate::{Estimate, significant};
 use super::free_vibration::{FreeVibration, free_vibration};
 use super::friction::{Coasting, CoastingTests, Stribeck, V_S, coasting, static_friction};
 use super::line::{Line, Outlier, hysteresis, line, outliers};
+use super::noise::of_rounding;
 use super::profile::Verdict;
 use super::recording::Recording;
 use crate::capsule::Parameter;
@@ -108,7 +109,7 @@ fn outliers_of_line(line: &Line, y: &[f64]) -> Vec<String> {
     if line.scatter <= ROUNDED * largest {
         return Vec::new();
     }
-    outliers(&line.residuals, 2).iter().map(Outlier::to_string).collect()
+    outliers(&line.residuals, 2, of_rounding(y)).iter().map(Outlier::to_string).collect()
 }
 
 fn of_free_vibration(
@@ -134,10 +135,10 @@ fn of_decay(
         verdict: Verdict::Determined,
         method: "least squares on the whole decay",
         source: recording.source.clone(),
-        other: Some(Other {
+        other: found.by_decrement.map(|estimates| Other {
             method: "logarithmic decrement",
-            estimate: found.by_decrement[which],
-            disagreement: Some(found.disagreement()[which]),
+            estimate: estimates[which],
+            disagreement: found.disagreement().map(|it| it[which]),
             bias: None,
         }),
         notes: notes_of_decay(recording, found, which),
@@ -156,15 +157,22 @@ fn notes_of_decay(recording: &Recording, found: &FreeVibration, which: usize) ->
     if which == 1 && found.by_decay[1].value <= 0.0 {
         notes.push("the amplitude does not decay: is this a free vibration?".to_owned());
     }
-    if found.scatter > MISFIT * found.noise {
+    let is_rounding = found.scatter <= ROUNDED * found.amplitudes[0].hypot(found.amplitudes[1]);
+    if found.scatter > MISFIT * found.noise && !is_rounding {
         let share = found.scatter / found.noise;
         notes.push(format!(
             "the fitted decay leaves {share:.1} times the noise of the record: {WHY}"
         ));
     }
-    let apart = found.disagreement()[which].abs();
-    if apart > DISAGREE {
-        notes.push(format!("the two methods differ by {apart:.1} standard errors: {WHY}"));
+    match found.disagreement().map(|it| it[which].abs()) {
+        Some(apart) if apart > DISAGREE => {
+            notes.push(format!("the two methods differ by {apart:.1} standard errors: {WHY}"));
+        }
+        Some(_) => {}
+        None => notes.push(
+            "the record has fewer than four turning points above its noise: no second method checks the fit"
+                .to_owned(),
+        ),
     }
     notes
 }
@@ -221,7 +229,8 @@ fn of_pulls(recording: &Recording, given: &Given) -> Identified {
     }
     let ratios: Vec<f64> = pulled.iter().map(|it| it / (given.m1 + given.m2)).collect();
     let residuals: Vec<f64> = ratios.iter().map(|it| it - estimate.value).collect();
-    notes.extend(outliers(&residuals, 1).iter().map(Outlier::to_string));
+    let rounding = of_rounding(&ratios);
+    notes.extend(outliers(&residuals, 1, rounding).iter().map(Outlier::to_string));
     Identified {
         constant: Constant::Parameter(Parameter::MuS.into()),
         estimate,

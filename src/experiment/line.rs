@@ -149,22 +149,23 @@ impl fmt::Display for Outlier {
 /// # Method
 ///
 /// The robust standard deviation is 1.4826 times the median of the absolute residuals, times `sqrt(n/(n - p))` for p parameters
-/// of n points.
+/// of n points, or `rounding`, that of values which are rounded to their resolution, where that is more.
 ///
 /// # Breaks
 ///
 /// Fewer than six points, or residuals of which most are zero, have no outliers.
-pub fn outliers(residuals: &[f64], parameters: usize) -> Vec<Outlier> {
+pub fn outliers(residuals: &[f64], parameters: usize, rounding: f64) -> Vec<Outlier> {
     let count = residuals.len();
     if count < LEAST_POINTS.max(parameters + 1) {
         return Vec::new();
     }
     let sizes: Vec<f64> = residuals.iter().map(|it| it.abs()).collect();
     let freedom = (count - parameters) as f64;
-    let deviation = 1.4826 * median(&sizes) * (count as f64 / freedom).sqrt();
-    if deviation <= 0.0 {
+    let robust = 1.4826 * median(&sizes) * (count as f64 / freedom).sqrt();
+    if robust <= 0.0 {
         return Vec::new();
     }
+    let deviation = robust.max(rounding);
     let mut outliers = Vec::new();
     for (i, residual) in residuals.iter().enumerate() {
         let deviations = residual / deviation;
@@ -298,7 +299,7 @@ mod tests {
             let line = line(&x, &y).expect("a line");
             assert!((line.slope.value - slope).abs() < 1e-14, "{line:?}");
             assert_eq!((line.scatter, line.curvature), (0.0, None));
-            assert!(outliers(&line.residuals, 2).is_empty());
+            assert!(outliers(&line.residuals, 2, 0.0).is_empty());
             assert_eq!(hysteresis(&x, &line.residuals), None);
             assert!(chance_of_parabola(&x, &line.residuals).is_none_or(|it| it == 1.0));
         }

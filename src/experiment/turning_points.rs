@@ -13,7 +13,7 @@ const SMALL: f64 = 0.02;
 /// The window in which turning points are read, as a share of half a period: it reaches from one turning point nearly to the
 /// next zero on either side, so that windows of neighbouring turning points share no sample.
 const WINDOW: f64 = 0.7;
-/// Turning points that a decay must have.
+/// Half waves, the first with its release, whose turning points tell a decay by themselves.
 const LEAST_TURNS: usize = 4;
 
 /// The turning points of a decaying record.
@@ -34,26 +34,76 @@ pub(super) struct Turns {
     pub time_deviation: f64,
 }
 
-/// The turning points of a decaying record that stand clear of its noise.
-pub(super) fn turning_points(times: &[f64], r: &[f64]) -> Result<Turns, String> {
-    let few =
-        "the record has fewer than four turning points above its noise; is it a free vibration?";
+/// What stands clear of the noise of a decaying record.
+pub(super) enum Clear {
+    /// Turning points enough for a decay of their own.
+    Turns(Turns),
+    /// A swing or two to the other side, before the mass is at rest.
+    Swing(Swing),
+}
+
+/// How a record that is soon at rest swings beyond its rest position.
+pub(super) struct Swing {
+    /// The sample after which the mass is certainly free: where it first passes its rest position.
+    pub first_index: usize,
+    /// How long it stays beyond [s].
+    pub lasts: f64,
+    /// The displacement that is the largest there [m].
+    pub height: f64,
+    /// The rest position [m].
+    pub rest: f64,
+}
+
+/// What stands clear of the noise of a decaying record.
+///
+/// Fails where it does not swing beyond its rest position.
+pub(super) fn turning_points(times: &[f64], r: &[f64]) -> Result<Clear, String> {
     let tail = &r[r.len() - (r.len() / 5).max(1)..];
     let rest = median(tail);
     let largest = r.iter().fold(0.0, |most: f64, value| most.max((value - rest).abs()));
     let clear = (CLEAR * noise(r)).max(SMALL * largest).max(f64::MIN_POSITIVE);
     let halves = half_waves(r, rest, clear);
+    let Some(beyond) = halves.get(1) else {
+        return Err(
+            "the record does not swing beyond its rest position above its noise; is it a free vibration?"
+                .to_owned(),
+        );
+    };
+    let whole = turns(times, r, rest, &halves).transpose()?;
+    Ok(whole.map_or_else(|| Clear::Swing(swing(times, r, rest, beyond)), Clear::Turns))
+}
+
+/// The swing beyond the rest position during these samples.
+fn swing(times: &[f64], r: &[f64], rest: f64, beyond: &Range<usize>) -> Swing {
+    let last = beyond.end.min(times.len() - 1);
+    let away = r[beyond.start..=last].iter().map(|it| it - rest);
+    Swing {
+        first_index: beyond.start,
+        lasts: times[last] - times[beyond.start],
+        height: away.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0),
+        rest,
+    }
+}
+
+/// The turning points of half waves; none where they are too few.
+fn turns(
+    times: &[f64],
+    r: &[f64],
+    rest: f64,
+    halves: &[Range<usize>],
+) -> Option<Result<Turns, String>> {
     if halves.len() < LEAST_TURNS {
-        return Err(few.to_owned());
+        return None;
     }
     let whole = &halves[1..halves.len() - 1];
     let half_period = median(&whole.iter().map(|it| it.len() as f64).collect::<Vec<_>>());
     let samples = ((WINDOW * half_period) as usize | 1).max(5).min(r.len() - 1 + r.len() % 2);
     let window = Window { samples, order: 2 };
-    let values = smoothed(times, r, window, 0).map_err(unsmoothed)?;
-    let slopes = smoothed(times, r, window, 1).map_err(unsmoothed)?;
-    let smooth = Smooth { times, values, slopes, rest };
-    let mut turns = smooth.turns(&halves, samples / 2);
+    let smooth = match (smoothed(times, r, window, 0), smoothed(times, r, window, 1)) {
+        (Ok(values), Ok(slopes)) => Smooth { times, values, slopes, rest },
+        (Err(why), _) | (_, Err(why)) => return Some(Err(unsmoothed(why))),
+    };
+    let mut turns = smooth.turns(halves, samples / 2);
     turns.first_index = halves[1].start;
     let interval = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
     let n = samples as f64;
@@ -62,7 +112,7 @@ pub(super) fn turning_points(times: &[f64], r: &[f64]) -> Result<Turns, String> 
     let slope = 12.0 / (n * (n * n - 1.0)) / (interval * interval);
     turns.height_deviation = value.sqrt();
     turns.time_deviation *= slope.sqrt();
-    if turns.times.len() + 1 < LEAST_TURNS { Err(few.to_owned()) } else { Ok(turns) }
+    (turns.times.len() + 1 >= LEAST_TURNS).then_some(Ok(turns))
 }
 
 fn unsmoothed(why: Unsuitable) -> String {
