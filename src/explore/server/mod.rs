@@ -9,6 +9,7 @@ mod branches;
 mod computations;
 mod described;
 mod explored;
+mod followed;
 mod line;
 mod map;
 mod motion;

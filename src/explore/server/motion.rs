@@ -1,7 +1,6 @@
 //! The motion of one case, computed as it is asked for.
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 use serde::Serialize;
 use serde_json::Value;
@@ -10,11 +9,12 @@ use super::answer::Refusal;
 use super::asked::Asked;
 use super::computations::{BUDGET, MOTION_BUDGET};
 use super::explored::{Explored, Near};
+use super::followed::{MOST_POINTS, followed};
 use crate::campaign::command;
 use crate::description::{Section, State};
 use crate::explore::case_json::{case_json, remarks};
 use crate::flow::stop;
-use crate::motion::{Case, Orbit, Simulation, SimulationSize, Stretch};
+use crate::motion::{Case, Orbit, Simulation, SimulationSize};
 use crate::of::{model_of, settle_case};
 use crate::orbit::{HistorySpan, Outcome, Protocol};
 use crate::store::catalogue::CYCLES;
@@ -24,12 +24,7 @@ use crate::study::Study;
 const TRANSIENT: u64 = 20;
 /// Cycles that the histories show at most, and of a motion that does not repeat.
 const MOST_SHOWN: u64 = 8;
-/// Points of half a cycle, beside its events, of motions over two cycles; those over more have fewer.
-const POINTS: u32 = 150;
-/// Points of half a cycle at least.
-const LEAST_POINTS: u32 = 60;
-/// Points of the histories at most, and events of the simulation: an answer of more than some megabytes is no click.
-const MOST_POINTS: usize = 20_000;
+/// Events of the simulation at most: an answer of more than some megabytes is no click.
 const MOST_EVENTS: usize = 10_000;
 /// What computes the histories of a motion that takes too long here.
 pub const INSTEAD: &str = "the command of the motion, which the page hands over, has no such limit";
@@ -210,37 +205,4 @@ impl History {
             )
         })
     }
-}
-
-/// The motion from a point of the section over some cycles, as far as the most points; none where the model tells no histories of its
-/// motions.
-pub fn followed(case: &Case, from: State, cycles: u64, tolerance: f64) -> Option<Stretch> {
-    let parameters = &case.parameters;
-    let model = parameters.model();
-    if model.motion.histories.is_empty() {
-        return None;
-    }
-    // Under a drive the motion is followed by halves of a cycle, so that the phases of both ends differ.
-    let half = parameters.period_of_drive().map(|period| 0.5 * period);
-    let parts = if half.is_some() { 2 * cycles } else { cycles };
-    let count = ((4 * u64::from(POINTS) / parts.max(1)) as u32).clamp(LEAST_POINTS, POINTS);
-    let mut stretch = Stretch::of(model);
-    let (mut start, mut begins) = (from, 0.0);
-    for number in 0..parts {
-        let [start_phase, section_phase] = [number, number + 1].map(|halves| match half {
-            Some(_) => case.section_phase + PI * (halves % 2) as f64,
-            None => 0.0,
-        });
-        let part = Case { parameters: parameters.clone(), start, start_phase, section_phase };
-        let part = model_of(parameters).arc(&part, count, tolerance).ok()?;
-        let last = part.times.len() - 1;
-        start = part.state(last);
-        stretch.append(begins, &part);
-        begins = half.map_or(begins + part.times[last], |half| (number + 1) as f64 * half);
-        if stretch.times.len() >= MOST_POINTS {
-            stretch.truncate(MOST_POINTS);
-            break;
-        }
-    }
-    Some(stretch)
 }
