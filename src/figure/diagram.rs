@@ -21,6 +21,7 @@ use super::symbol::Symbol;
 use super::text::Text;
 use super::track::elsewhere;
 use super::view::View;
+use super::without_period::WithoutPeriod;
 use crate::store::catalogue::{ATTRACTOR, Place};
 use crate::study::Drawing;
 
@@ -144,6 +145,8 @@ pub struct Diagram<'a> {
     within: Vec<bool>,
     /// What lies elsewhere, in words.
     left_out: Option<String>,
+    /// The cases that have no period.
+    without_period: WithoutPeriod,
 }
 
 impl<'a> Diagram<'a> {
@@ -155,11 +158,15 @@ impl<'a> Diagram<'a> {
         let within = values.iter().map(|x| abscissa.scale.holds(*x)).collect();
         let nothing = nothing_within(&abscissa, values, &reached);
         let left_out = elsewhere(view, &[axis]).or(nothing);
-        let mut diagram = Diagram { contents, abscissa, within, left_out };
+        let without_period = WithoutPeriod::default();
+        let mut diagram = Diagram { contents, abscissa, within, left_out, without_period };
         if let Some(mut paint) = diagram.contents.paint.take() {
             paint.list(|case| diagram.is_seen(case));
             diagram.contents.paint = Some(paint);
         }
+        let Contents { cases, outputs, .. } = &diagram.contents;
+        diagram.without_period =
+            WithoutPeriod::of(view, cases, outputs, |case| diagram.is_seen(case));
         diagram
     }
 
@@ -190,6 +197,7 @@ impl<'a> Diagram<'a> {
             self.contents.ramps.draw(&mut canvas, panel, index, view);
             lines[index].draw(&mut canvas, panel);
             measured.draw(&mut canvas, panel, index);
+            self.without_period.draw(&mut canvas, panel, &outputs[index]);
             panel.finish(&mut canvas);
         }
         explain(&mut canvas, &panels, paint.as_ref());
@@ -265,6 +273,7 @@ impl<'a> Diagram<'a> {
         let known: Vec<Mark> = legend.iter().map(|(mark, _)| *mark).collect();
         legend.extend(of_lines.into_iter().filter(|(mark, _)| !known.contains(mark)));
         legend.extend(self.contents.ramps.legend());
+        legend.extend(self.without_period.legend());
         for (mark, words) in paint.iter().flat_map(|it| it.legend(|case| self.is_seen(case))) {
             let is_filled = matches!(mark, Mark::Filled(_));
             let mark = if is_filled { Mark::Disc(UNDECIDED_DOT, 1.6) } else { mark };

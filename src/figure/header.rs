@@ -15,6 +15,8 @@ use super::text::Text;
 pub enum Mark {
     /// A line.
     Line(Stroke),
+    /// A short upright line.
+    Tick(Stroke),
     /// A disc.
     Disc(RGBColor, f64),
     /// A ring.
@@ -37,7 +39,9 @@ impl Mark {
     /// Width in a legend [pt].
     fn width(self) -> f64 {
         match self {
-            Mark::Disc(..) | Mark::Ring(..) | Mark::Symbol(_) | Mark::Nothing => POINT_WIDTH,
+            Mark::Disc(..) | Mark::Ring(..) | Mark::Tick(_) | Mark::Symbol(_) | Mark::Nothing => {
+                POINT_WIDTH
+            }
             Mark::Codim2(_) => 2.0 * RING,
             Mark::Line(_) | Mark::Patch(_) | Mark::Filled(_) | Mark::Discs(..) => MARK_WIDTH,
         }
@@ -178,6 +182,10 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
     };
     match mark {
         Mark::Line(stroke) => canvas.line(&[at, (left + MARK_WIDTH, middle)], stroke),
+        Mark::Tick(stroke) => {
+            let (x, y) = centre;
+            canvas.line(&[(x, y - 3.0), (x, y + 3.0)], stroke);
+        }
         Mark::Disc(colour, radius) => canvas.discs(&[(centre, colour)], radius),
         Mark::Discs(colours, radius) => {
             let step = mark.width() / colours.len() as f64;

@@ -79,6 +79,7 @@ mod trade_off_table;
 mod unit;
 mod varied;
 mod view;
+mod without_period;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;

@@ -12,7 +12,7 @@ use super::figure::fixtures::{Fixture, OUTCOMES, steps, with_history};
 use super::figure::{drawing, folder, into};
 
 /// A figure with its text as text, and the data behind it.
-fn drawn(dataset: &Dataset, request: &Drawing) -> (String, String) {
+pub fn drawn(dataset: &Dataset, request: &Drawing) -> (String, String) {
     let request = Drawing { svg_text: true, data: true, ..request.clone() };
     // A folder of its own: the figures of all tests here have one name.
     let folder = tempfile::tempdir().expect("a folder");
@@ -31,12 +31,12 @@ fn refused(dataset: &Dataset, request: &Drawing) -> String {
     draw(dataset, request, &into(&place, &[])).expect_err("a fault").to_string()
 }
 
-fn settings(of: &[(&str, QuantitySettings)]) -> Settings {
+pub fn settings(of: &[(&str, QuantitySettings)]) -> Settings {
     of.iter().map(|(name, set)| (name.to_string(), set.clone())).collect()
 }
 
 /// The labels of a figure.
-fn labels(svg: &str) -> Vec<String> {
+pub fn labels(svg: &str) -> Vec<String> {
     let label = |text: &str| {
         let mut plain = String::new();
         let inside = text.split_once('>').and_then(|it| it.1.split_once("</text>"));
@@ -49,7 +49,7 @@ fn labels(svg: &str) -> Vec<String> {
 }
 
 /// The number after `key` in a shape.
-fn number(shape: &str, key: &str) -> f64 {
+pub fn number(shape: &str, key: &str) -> f64 {
     let rest = shape.split_once(&format!(" {key}=\"")).expect("an attribute").1;
     rest.split('"').next().and_then(|it| it.parse().ok()).expect("a number")
 }
@@ -61,7 +61,7 @@ fn discs(svg: &str) -> Vec<(f64, f64)> {
 }
 
 /// Speeds over six frequencies.
-fn speeds(of: [f64; 6]) -> Dataset {
+pub fn speeds(of: [f64; 6]) -> Dataset {
     Fixture::default()
         .coordinate("omega", "rad/s", steps(10.0, 60.0, 6))
         .real("progression_speed", &["omega"], |at| of[at[0]])
@@ -69,7 +69,7 @@ fn speeds(of: [f64; 6]) -> Dataset {
         .0
 }
 
-fn diagram(set: &[(&str, QuantitySettings)]) -> Drawing {
+pub fn diagram(set: &[(&str, QuantitySettings)]) -> Drawing {
     let of = vec!["progression_speed".to_owned()];
     Drawing { of, settings: settings(set), ..drawing("it", DrawingKind::Bifurcation) }
 }
@@ -187,7 +187,7 @@ fn what_is_set_and_has_no_effect_is_told() {
 }
 
 /// Speeds and periods over a plane, those of the downward sweep larger.
-fn both_sweeps() -> Dataset {
+pub fn both_sweeps() -> Dataset {
     let axes = ["p_d", "omega", "direction"];
     Fixture::default()
         .coordinate("p_d", "N", steps(1.0, 4.0, 4))

@@ -39,6 +39,7 @@ mod explore_requests;
 mod explorer;
 mod figure;
 mod figure_contents;
+mod figure_marks;
 mod figure_requests;
 mod figure_settings;
 mod fit_reports;

@@ -1,0 +1,76 @@
+//! Cases that have no period, along the upper side of a panel of periods: a period of 0 would be a number among numbers.
+
+use super::canvas::{Canvas, Stroke};
+use super::diagram::Cases;
+use super::header::{Entry, Mark};
+use super::outcome::Outcomes;
+use super::panel::Panel;
+use super::style::{CHAOTIC, CURVE_WIDTH, QUASI_PERIODIC, UNDECIDED};
+use super::text::Text;
+use super::view::View;
+use crate::store::catalogue::PERIOD;
+use plotters::style::RGBColor;
+
+/// Length of a mark, from the frame inward [pt].
+const LENGTH: f64 = 6.0;
+/// Outcomes without a period, in the colours that maps give them.
+const KINDS: [(&str, RGBColor); 3] =
+    [("chaotic", CHAOTIC), ("quasi-periodic", QUASI_PERIODIC), ("undecided", UNDECIDED)];
+
+/// The cases without a period: their abscissae, and the places of their outcomes among [`KINDS`].
+#[derive(Default)]
+pub struct WithoutPeriod {
+    cases: Vec<(f64, usize)>,
+}
+
+impl WithoutPeriod {
+    /// Those of a diagram of `outputs`, as far as each is seen; none where the period is not among them.
+    pub fn of(
+        view: &View<'_>,
+        cases: &Cases<'_>,
+        outputs: &[String],
+        seen: impl Fn(usize) -> bool,
+    ) -> WithoutPeriod {
+        let mut found = WithoutPeriod::default();
+        if !outputs.iter().any(|output| output == PERIOD.name) {
+            return found;
+        }
+        let Ok(outcomes) = Outcomes::over(view, &cases.free) else { return found };
+        for case in (0..cases.count()).filter(|case| seen(*case)) {
+            let kind = KINDS.iter().position(|(name, _)| outcomes.name(case) == Some(name));
+            found.cases.extend(kind.map(|kind| (cases.values[case / cases.per_value], kind)));
+        }
+        found
+    }
+
+    /// What the marks mean.
+    pub fn legend(&self) -> impl Iterator<Item = Entry> {
+        let present = |kind: usize| self.cases.iter().any(|it| it.1 == kind);
+        let kinds = KINDS.into_iter().enumerate().filter(move |(kind, _)| present(*kind));
+        kinds.map(|(_, (name, colour))| {
+            (Mark::Tick(stroke(colour)), Text::plain(&format!("{name}: no period")))
+        })
+    }
+
+    /// Draws the marks at the upper side of a panel of periods.
+    pub fn draw(&self, canvas: &mut Canvas, panel: &Panel, output: &str) {
+        if output != PERIOD.name {
+            return;
+        }
+        for (number, (name, colour)) in KINDS.into_iter().enumerate() {
+            let of_kind = self.cases.iter().filter(|it| it.1 == number).map(|it| it.0);
+            let top = panel.frame.top;
+            let marks: Vec<_> = of_kind
+                .clone()
+                .map(|x| panel.place(x, panel.y.scale.low).0)
+                .map(|x| ((x, top), (x, top + LENGTH)))
+                .collect();
+            canvas.segments(&marks, stroke(colour));
+            panel.record(canvas, &format!("{name}, no period"), of_kind.map(|x| (x, f64::NAN)));
+        }
+    }
+}
+
+fn stroke(colour: RGBColor) -> Stroke {
+    Stroke::solid(colour, CURVE_WIDTH)
+}
