@@ -57,7 +57,7 @@ impl Continue {
         let study = read_study(&self.study)?;
         if !study.has_more_than_cases() {
             let message = format!(
-                "{name}: asks for no [[branches]], no [[ramps]] and no boundaries of a [map]; docs/branches.md shows how"
+                "{name}: asks for no [[branches]], no [[ramps]] and no boundaries of a [map]; capsulemap help study lists their keys"
             );
             return Err(Failure::request(message));
         }

@@ -44,7 +44,7 @@ that of the third differences of the residuals. Outliers are samples more than f
 little, errors and intervals are scaled by Huber's formula for such fits, and the \
 misfit is that of the others, by the median.
 
-The study may be of an oscillator given as text (docs/systems.md). Then a recording has a column t and columns that are called \
+The study may be of an oscillator given as text (capsulemap help book systems). Then a recording has a column t and columns that are called \
 as states, one at least, with their units as \"x [m]\"; a state whose unit is 1 has none, and where all are such, t has none. The drive \
 is known: at t = 0 of the record its phase is the start_phase of the study, whenever the first sample is. Without a drive the first sample is \
 anywhere in the motion. The start of each state is unknown: where it is recorded, or follows from the rate of one that is, it is looked \

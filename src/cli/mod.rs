@@ -7,6 +7,7 @@ mod attractor_list;
 mod basin_list;
 mod asked_density;
 mod block_progress;
+mod book;
 mod boundary_summary;
 mod branch_summary;
 mod check;
@@ -23,6 +24,7 @@ mod figure;
 mod files;
 mod fit;
 mod fit_report;
+mod help;
 mod identify;
 mod identify_report;
 mod inspect;
@@ -91,7 +93,7 @@ Examples:
 
 /// Bifurcation and basin mapper for the vibro-impact capsule.
 #[derive(Debug, Parser)]
-#[command(version, about, after_help = EXAMPLES, max_term_width = 100)]
+#[command(version, about, after_help = EXAMPLES, max_term_width = 100, disable_help_subcommand = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -140,6 +142,8 @@ enum Command {
     Compare(compare::Compare),
     /// Make recordings of a rig from a simulation, with noise and sampling as stated.
     Synthesize(synthesize::Synthesize),
+    /// Print the help of a command, or what the book says of keys of a study, outputs and units.
+    Help(help::Help),
     /// Print the completions of a shell.
     #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
@@ -182,6 +186,7 @@ pub fn run(commit: &'static str, words: impl IntoIterator<Item = OsString>) -> u
         Command::Fit(fit) => fit.run(),
         Command::Compare(compare) => compare.run(),
         Command::Synthesize(synthesize) => synthesize.run(),
+        Command::Help(help) => help.run(Arguments::command()),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "capsulemap", &mut script);

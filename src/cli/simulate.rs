@@ -67,7 +67,7 @@ pub struct Simulate {
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     delta: Option<String>,
     /// Any parameter: m1, m2, k1, c, k2, delta, p_d, omega, mu_s, mu_d, v_s, g, c1, c2, and those of the family of capsules, as
-    /// duty, incline or k3 (docs/family.md has all); of another model or a system, those that it has. Several in a list, or each
+    /// duty, incline or k3 (capsulemap help book family has all); of another model or a system, those that it has. Several in a list, or each
     /// by an option of its own.
     #[arg(long, value_name = "NAME=VALUE,...")]
     set: Vec<String>,
@@ -103,7 +103,7 @@ pub struct Simulate {
     /// How the force on the mass depends on the phase of the drive: p_d cos(phase); p_0 + p_d for a share `duty` of the period, then
     /// p_0 + p_low, with edges that last a share `rise` of it in a trapezoid; or p_0 + p_d cos(phase) + p_2 cos(2 phase + phase_2).
     /// In place of a force the motion of the mass relative to the capsule may be prescribed: as a sum of two harmonics, or in two or
-    /// three phases (docs/family.md).
+    /// three phases (capsulemap help book family).
     #[arg(long, value_parser = named(&DriveKind::NAMES), default_value = "harmonic")]
     drive: DriveKind,
     /// What takes up the reaction of the drive: none, as of an external field, or the capsule, as of an actuator in it.

@@ -37,7 +37,7 @@ Examples:
 A run that was interrupted is resumed by the same command. Without --task, an element of an array of Slurm, Grid Engine, LSF or AWS \
 Batch takes its part by itself. PBS, Torque and indexed jobs of Kubernetes do not say how many elements there are: \
 --task $PBS_ARRAY_INDEX/8. The same goes for HyperQueue ($HQ_TASK_ID) and GNU parallel ($PARALLEL_SEQ). scripts/slurm, scripts/pbs and \
-scripts/kubernetes have array scripts. Processes with --claim share a study without numbers; docs/clusters.md shows how.";
+scripts/kubernetes have array scripts. Processes with --claim share a study without numbers; capsulemap help book clusters shows how.";
 
 /// More values on an axis than this are alike to every figure.
 const MOST_VALUES: usize = 16;

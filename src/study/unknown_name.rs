@@ -58,7 +58,7 @@ fn listed(name: &str, mut known: Vec<&str>) -> String {
         .sort_by_key(|candidate| (!candidate.contains(name), damerau_levenshtein(name, candidate)));
     let nearest = known[..NEAREST_LISTED].join(", ");
     format!(
-        "{nearest} and {others} others, which docs/study/parameters.md and docs/outputs.md list"
+        "{nearest} and {others} others, which capsulemap help study parameters and capsulemap help output list"
     )
 }
 

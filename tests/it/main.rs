@@ -47,6 +47,7 @@ mod fitted_recordings;
 mod folds_of_fronts;
 mod full_disk;
 mod help_examples;
+mod help_topics;
 mod hints;
 mod histories;
 mod hostile_files;
