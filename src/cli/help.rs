@@ -5,7 +5,8 @@ use clap::{Args, Command};
 use super::book::{self, OUTPUTS, Row};
 use super::failure::Failure;
 use super::terminal::print;
-use crate::quantity::{Dimension, parse_quantity};
+use crate::quantity::Dimension;
+use crate::quantity::units::expectation;
 
 const EXAMPLES: &str = "\
 study, output, unit and book without a name list what there is.
@@ -169,10 +170,4 @@ fn of_page(name: &str) -> Result<String, Failure> {
     let page = book::page(name);
     page.map(book::Page::plain)
         .ok_or_else(|| unknown("page", name, "capsulemap help book lists them"))
-}
-
-/// What is expected of a quantity, with its units: as the fault of a text without a number tells it.
-fn expectation(dimension: Dimension) -> String {
-    let fault = parse_quantity("", dimension).err().unwrap_or_default();
-    fault.rsplit("expected ").next().unwrap_or_default().to_owned()
 }
