@@ -76,13 +76,10 @@ pub fn page(name: &str) -> Option<Page> {
     PAGES.iter().copied().find(|it| it.name == name || it.name.rsplit('/').next() == Some(name))
 }
 
-/// The pages of the study file.
+/// The pages that have tables of keys of a study, those of the study file first.
 pub fn of_studies() -> impl Iterator<Item = Page> {
-    let others = ["paths", "ramps"];
-    PAGES
-        .iter()
-        .copied()
-        .filter(move |it| it.name.starts_with("study/") || others.contains(&it.name))
+    let in_folder = PAGES.iter().copied().filter(|it| it.name.starts_with("study/"));
+    in_folder.chain(["paths", "ramps"].into_iter().filter_map(page))
 }
 
 impl Page {

@@ -6,7 +6,7 @@ use super::page::PanelRequest;
 use super::style::{BORDER, SMALL_SIZE};
 
 /// A legend of up to so many widths of the page stands above its panel.
-const MOST_ABOVE: f64 = 2.0;
+const MOST_ABOVE: f64 = 1.6;
 /// Distance from the panels to the first line [pt].
 const GAP: f64 = 5.0;
 
