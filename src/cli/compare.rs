@@ -8,7 +8,6 @@ use super::asked_case::{Takes, asked_case};
 use super::compare_report::{as_json, explained, told_of};
 use super::experiment_figures::{comparison_plot, text_comparison_plot};
 use super::failure::Failure;
-use super::files;
 use super::recording_form::RecordingForm;
 use super::terminal::print;
 use super::text_compare;
@@ -104,7 +103,7 @@ impl Compare {
             let (case, protocol) = asked?;
             return self.compare_text(&case, &protocol);
         }
-        let recording = files::motion(&self.recording, default_model(), &self.form)?;
+        let recording = self.form.motion(&self.recording, default_model())?;
         let (case, protocol) = asked?;
         let comparison = compare(&recording, &case, &protocol)
             .map_err(|why| Failure::of_file(&self.recording, why))?;
@@ -141,7 +140,7 @@ impl Compare {
             let why = "--explain: is for the capsule; `capsulemap fit` finds parameters of an oscillator that is given as text";
             return Err(Failure::request(why));
         }
-        let recording = files::motion(&self.recording, case.parameters.model(), &self.form)?;
+        let recording = self.form.motion(&self.recording, case.parameters.model())?;
         let of_file = |why| Failure::of_file(&self.recording, why);
         let record = TextRecord::new(&recording, case).map_err(of_file)?;
         let doubts = record.doubts(&recording);

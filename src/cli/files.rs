@@ -3,15 +3,11 @@
 use std::path::Path;
 
 use super::failure::Failure;
-use super::recording_form::RecordingForm;
-use crate::description::Description;
-use crate::experiment::{Column, FileForm, Recording, columns_of_motion, decoded};
+use crate::experiment::{Column, FileForm, Recording, decoded};
 use crate::quantity::printable::printable;
 use crate::quantity::{Dimension, parse_quantity};
 use crate::store::{self, Pipes};
 
-/// Rows that a recording of a motion must have.
-const LEAST_ROWS: usize = 16;
 /// What standard output is called where a file is named.
 const STANDARD_OUTPUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
 
@@ -41,16 +37,6 @@ pub fn recording_as(
 ) -> Result<Recording, Failure> {
     let name = path.to_string_lossy();
     Recording::read_as(&name, &text(path)?, known, least, Some(form)).map_err(Failure::request)
-}
-
-/// The recording of a motion, with the columns that one of this model may have.
-pub fn motion(
-    path: &Path,
-    model: &'static Description,
-    form: &RecordingForm,
-) -> Result<Recording, Failure> {
-    let known = columns_of_motion(model);
-    recording_as(path, &known, LEAST_ROWS, &form.of(&known)?)
 }
 
 /// Whether standard output is asked for in place of a file.

@@ -177,7 +177,7 @@ impl Fit {
                 );
                 return Err(Failure::of_file(study, why));
             }
-            let recording = files::motion(path, model, &self.form)?;
+            let recording = self.form.motion(path, model)?;
             let of_file = |why| Failure::of_file(path, why);
             let record = TextRecord::new(&recording, &case).map_err(of_file)?;
             let doubts = record.doubts(&recording).into_iter();
@@ -219,7 +219,7 @@ impl Fit {
         index: usize,
     ) -> Result<(Recorded, Vec<String>), Failure> {
         let path = &self.recordings[index];
-        let recording = files::motion(path, default_model(), &self.form)?;
+        let recording = self.form.motion(path, default_model())?;
         let case = self.case_of(cases, index)?;
         let (times, signals) = signals_of(&recording).map_err(|why| Failure::of_file(path, why))?;
         let period = case.parameters.drive_period();

@@ -1,11 +1,17 @@
 //! The options that say what form a recording's file has.
 
+use std::path::Path;
+
 use clap::Args;
 
 use super::failure::Failure;
 use super::files;
-use crate::experiment::{Column, FileForm};
+use crate::description::Description;
+use crate::experiment::{Column, FileForm, Recording, columns_of_motion};
 use crate::quantity::Dimension;
+
+/// Rows that a recording of a motion must have.
+const LEAST_ROWS: usize = 16;
 
 /// What is said of the form of the files.
 #[derive(Debug, Args)]
@@ -41,6 +47,12 @@ impl RecordingForm {
             own
         });
         Ok(each.collect())
+    }
+
+    /// The recording of a motion, with the columns that one of this model may have.
+    pub fn motion(&self, path: &Path, model: &'static Description) -> Result<Recording, Failure> {
+        let known = columns_of_motion(model);
+        files::recording_as(path, &known, LEAST_ROWS, &self.of(&known)?)
     }
 
     fn read(&self, faults: &mut Vec<String>) -> FileForm {

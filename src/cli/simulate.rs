@@ -27,7 +27,7 @@ use crate::study::without_effect::given_without_effect;
 const EXAMPLES: &str = "\
 Examples:
   capsulemap simulate --omega \"20.73 rad/s\" --k2 \"18.96 kN/m\" --json
-  capsulemap simulate --set mu_s=0.4,mu_d=0.3 --start r=-2.5e-3,y2=0.1 --cycles 50
+  capsulemap simulate --set mu_s=0.4,mu_d=0.3 --start r=-2.5e-3 --cycles 50
   capsulemap simulate --drive square --set duty=0.3 --set p_low=\"-1 N\"
   capsulemap simulate --friction-switching as-printed
   capsulemap simulate --study studies/overview.toml --case 1234

@@ -60,7 +60,7 @@ impl Smooth {
         let length = files::quantity("--window", &self.window, Dimension::Time);
         let length = length.map_err(Failure::request)?;
         let target = Target::of(&self.output, |path| files::check_free(path, self.overwrite))?;
-        let recording = files::motion(&self.recording, default_model(), &self.form)?;
+        let recording = self.form.motion(&self.recording, default_model())?;
         let sampling = recording.sampling();
         let how = self.how(length, sampling.interval)?;
         let names = Signal::ALL.map(|it| (it.name(), it.dimension()));

@@ -2,7 +2,6 @@
 
 use super::canvas::Canvas;
 use super::header::{Entry, HEADER_LINE, draw_entries, in_lines, legend_width};
-use super::page::PanelRequest;
 use super::style::{BORDER, SMALL_SIZE};
 
 /// A legend of up to so many widths of the page stands above its panel.
@@ -17,11 +16,12 @@ pub struct Caption {
 }
 
 impl Caption {
-    /// Takes the legend of a page off its panel, where there is just one and it is long for a page of this inner width [pt].
-    pub fn taken_from(rows: &mut [Vec<PanelRequest>], width: f64) -> Caption {
-        let mut legends: Vec<&mut Vec<Entry>> =
-            rows.iter_mut().flatten().map(|it| &mut it.header.legend).collect();
-        legends.retain(|it| !it.is_empty());
+    /// Takes the legend of a page off its panel, where just one has entries and it is long for a page of this inner width [pt].
+    pub fn taken_from<'l>(
+        legends: impl Iterator<Item = &'l mut Vec<Entry>>,
+        width: f64,
+    ) -> Caption {
+        let mut legends: Vec<&mut Vec<Entry>> = legends.filter(|it| !it.is_empty()).collect();
         match &mut legends[..] {
             [only] if legend_width(only) > MOST_ABOVE * width => {
                 Caption { entries: std::mem::take(only) }

@@ -165,8 +165,9 @@ impl<'a> Diagram<'a> {
             diagram.contents.paint = Some(paint);
         }
         let Contents { cases, outputs, .. } = &diagram.contents;
-        diagram.without_period =
-            WithoutPeriod::of(view, cases, outputs, |case| diagram.is_seen(case));
+        let abscissae = (0..cases.count())
+            .map(|case| diagram.is_seen(case).then(|| cases.values[case / cases.per_value]));
+        diagram.without_period = WithoutPeriod::of(view, &cases.free, outputs, abscissae);
         diagram
     }
 

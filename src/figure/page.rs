@@ -145,7 +145,10 @@ impl<'a> PageRequest<'a> {
         let inner = self.width() - 2.0 * BORDER;
         let caption = match self.bottom_room > 0.0 {
             true => Caption::default(),
-            false => Caption::taken_from(&mut self.rows, inner),
+            false => {
+                let panels = self.rows.iter_mut().flatten();
+                Caption::taken_from(panels.map(|it| &mut it.header.legend), inner)
+            }
         };
         self.bottom_room += caption.room(inner);
         let wanted = self.drawing.height_mm.map(|height| height * POINTS_PER_MM);

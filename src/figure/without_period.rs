@@ -1,7 +1,6 @@
 //! Cases that have no period, along the upper side of a panel of periods: a period of 0 would be a number among numbers.
 
 use super::canvas::{Canvas, Stroke};
-use super::diagram::Cases;
 use super::header::{Entry, Mark};
 use super::outcome::Outcomes;
 use super::panel::Panel;
@@ -24,21 +23,22 @@ pub struct WithoutPeriod {
 }
 
 impl WithoutPeriod {
-    /// Those of a diagram of `outputs`, as far as each is seen; none where the period is not among them.
+    /// Those of a diagram of `outputs`, of cases over the axes `free` that each have an abscissa where they are seen; none where the
+    /// period is not among the outputs.
     pub fn of(
         view: &View<'_>,
-        cases: &Cases<'_>,
+        free: &[&str],
         outputs: &[String],
-        seen: impl Fn(usize) -> bool,
+        abscissae: impl Iterator<Item = Option<f64>>,
     ) -> WithoutPeriod {
         let mut found = WithoutPeriod::default();
         if !outputs.iter().any(|output| output == PERIOD.name) {
             return found;
         }
-        let Ok(outcomes) = Outcomes::over(view, &cases.free) else { return found };
-        for case in (0..cases.count()).filter(|case| seen(*case)) {
+        let Ok(outcomes) = Outcomes::over(view, free) else { return found };
+        for (case, x) in abscissae.enumerate() {
             let kind = KINDS.iter().position(|(name, _)| outcomes.name(case) == Some(name));
-            found.cases.extend(kind.map(|kind| (cases.values[case / cases.per_value], kind)));
+            found.cases.extend(x.zip(kind));
         }
         found
     }

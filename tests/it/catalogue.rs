@@ -32,7 +32,7 @@ const DEFINING: [&str; 8] = [
 ];
 
 /// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
-const OTHERS: [(&str, &[&str], &str); 25] = [
+const OTHERS: [(&str, &[&str], &str); 27] = [
     ("src/study/protocol_file.rs", &["cycles", "attractor"], "keys of a study"),
     ("src/study/study_text.rs", KEYS, "keys of a study"),
     ("src/study/start_file.rs", &["direction"], "keys of a study"),
@@ -46,6 +46,8 @@ const OTHERS: [(&str, &[&str], &str); 25] = [
         SET,
         "what the keys of quantities may name, which a test here compares",
     ),
+    ("src/experiment/header_columns.rs", &["time"], "what recordings call their times"),
+    ("src/experiment/cells.rs", &["point"], "the decimal point"),
     ("crates/models/src/quantity/units.rs", &["g"], "the gram"),
     ("crates/text/src/text/unit.rs", &["g"], "the gram"),
     ("crates/text/src/text/fitting.rs", &["period", "duty"], "keys of a text"),

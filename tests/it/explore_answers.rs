@@ -72,7 +72,13 @@ fn a_click_gives_the_numbers_of_simulate() {
         if told["simulate"]["orbit"]["outcome"] == "periodic" {
             let advance = x2[x2.len() - 1] - x2[0];
             assert!((advance - speed * length).abs() < 1e-6 * advance.abs() + 1e-8, "{advance}");
+            // Contacts are short, and drawn up to their peaks.
+            let contact = numbers(&history["signals"]["history_contact"]);
+            let drawn = contact.into_iter().fold(0.0, f64::max);
+            let peak = told["simulate"]["orbit"]["peak_contact_force"].as_f64().expect("a force");
+            assert!((drawn - peak).abs() <= 2e-3 * peak, "{drawn} of {peak}");
         }
+        assert!(t.windows(2).all(|it| it[0] <= it[1]), "{t:?}");
     }
     let between = explorer.object("/api/motion?p_d=3.3&omega=61.7&cycles=0");
     assert!(!between["exact"].as_bool().expect("a truth"));
