@@ -59,8 +59,9 @@ fn a_long_legend_stands_below_its_panels() {
         };
         let svg = drawn(&dataset, &request).0;
         let height = |words: &str| {
-            let text = svg.split("<text ").find(|it| it.contains(words));
-            number(&format!(" {}", text.expect("a label")), "y")
+            let place = labels(&svg).iter().position(|it| it.contains(words));
+            let text = svg.split("<text ").nth(1 + place.expect("a label"));
+            number(&format!(" {}", text.expect("a text")), "y")
         };
         height("0.5") > height("Frequency")
     };

@@ -12,7 +12,7 @@ fn keys_outputs_units_and_pages_are_told() {
     for (words, told) in [
         (&[][..], &["Usage: capsulemap", "explore", "help"][..]),
         (&["sweep"], &["Usage: capsulemap sweep", "--task"]),
-        (&["study"], &["`[basin]`\n  early_decision\n", "`[[axes]]`", "key of", "  base_samples"]),
+        (&["study"], &["`[basin]`\n  early_decision\n", "`[[axes]]`", "  base_samples"]),
         (
             &["study", "refine"],
             &[
