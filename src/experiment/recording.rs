@@ -257,3 +257,25 @@ pub fn median(values: &[f64]) -> f64 {
         _ => 0.5 * (sorted[middle - 1] + sorted[middle]),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gaps_and_uneven_times_are_told() {
+        let sampling = |times: &[f64]| {
+            let rows: Vec<String> = times.iter().map(|t| format!("{t}\n")).collect();
+            let presence = Presence::Required;
+            let column = Column { name: "t", dimension: Dimension::Time, presence };
+            let text = format!("t [s]\n{}", rows.concat());
+            Recording::read("rig.csv", &text, &[column], 2).expect("readable").sampling()
+        };
+        let even = sampling(&[0.0, 0.1, 0.2, 0.3]);
+        assert!(even.is_even && even.gaps.is_empty() && (even.interval - 0.1).abs() < 1e-12);
+        let gap = sampling(&[0.0, 0.1, 0.2, 0.5, 0.6]);
+        assert!(gap.is_even && gap.gaps.len() == 1, "{gap}");
+        assert!(gap.to_string().contains("a gap of 0.3000 s at t = 0.200000 s"), "{gap}");
+        assert!(!sampling(&[0.0, 0.1, 0.22, 0.3]).is_even);
+    }
+}

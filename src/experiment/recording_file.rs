@@ -392,19 +392,4 @@ mod tests {
         let told = Recording::read_as("rig.csv", text, &KNOWN, 2, Some(&form)).expect_err("faults");
         assert!(told.to_string().contains("--columns \"t=Time:s\""), "{told}");
     }
-
-    #[test]
-    fn gaps_and_uneven_times_are_told() {
-        let text = |times: &[f64]| {
-            let rows: Vec<String> = times.iter().map(|t| format!("{t},0")).collect();
-            format!("t [s],x2 [m]\n{}\n", rows.join("\n"))
-        };
-        let sampling = |times: &[f64]| read(&text(times)).expect("readable").sampling();
-        let even = sampling(&[0.0, 0.1, 0.2, 0.3]);
-        assert!(even.is_even && even.gaps.is_empty() && (even.interval - 0.1).abs() < 1e-12);
-        let gap = sampling(&[0.0, 0.1, 0.2, 0.5, 0.6]);
-        assert!(gap.is_even && gap.gaps.len() == 1, "{gap}");
-        assert!(gap.to_string().contains("a gap of 0.3000 s at t = 0.200000 s"), "{gap}");
-        assert!(!sampling(&[0.0, 0.1, 0.22, 0.3]).is_even);
-    }
 }
