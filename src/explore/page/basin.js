@@ -1,6 +1,8 @@
 // The basins at some parameters: which attractor each start leads to, painted coarse and then finer.
 
 import * as ask from "./ask.js";
+import * as busy from "./busy.js";
+import * as tip from "./tip.js";
 import { button, element, labelled, parted, say, said, table } from "./element.js";
 import { isReversed } from "./form.js";
 import { handOver, saveButtons } from "./keep.js";
@@ -56,7 +58,7 @@ export class Basin {
     const help = element("p", { id: "basin-help", className: "note" });
     help.textContent = "Click a start for its motion. Keys: arrows move the mark, Enter computes there, + and − zoom, 0 shows all.";
     const choose = (point) => on.choose({ ...this.parameters, [this.data.x.name]: point[0], [this.data.y.name]: point[1] });
-    this.plane = new BasinPlane(this.canvas, { choose, hover: (at, isKey) => this.hover(at, isKey) });
+    this.plane = new BasinPlane(this.canvas, { choose, hover: (at, isKey, event) => this.hover(at, isKey, event) });
     this.saving = element("div", { className: "buttons" }, saveButtons("basin", "basin", () => ({ kind: "basin", ...this.request })));
     place.append(this.heading, this.told, this.bar, this.canvas, this.hovered, this.legend, this.attractors, help, this.ranges(), this.saving);
   }
@@ -87,6 +89,7 @@ export class Basin {
     Object.assign(this, { running, asked, request, parameters, data: null, last: null, began: performance.now() });
     this.heading.textContent = `At ${words}.`;
     this.at = words;
+    this.task = busy.begin("basin", "Basin");
     this.told.textContent = "The first starts are computed.";
     say("The basin is computed");
     Object.assign(this.bar, { value: 0, hidden: false });
@@ -96,9 +99,11 @@ export class Basin {
     try {
       await ask.lines("/api/basin", request, (it) => this.receive(it), running.signal);
       this.bar.hidden = true;
+      this.task.end();
       say(this.told.textContent);
     } catch (it) {
       if (it.name === "AbortError") return;
+      this.task.end(false);
       this.asked = null;
       this.bar.hidden = true;
       this.told.textContent = it.message;
@@ -109,6 +114,7 @@ export class Basin {
   /** Computes nothing more. */
   stop() {
     this.running?.abort();
+    this.task?.end(false);
     this.asked = null;
     handOver("basin", "", null);
   }
@@ -124,6 +130,7 @@ export class Basin {
     const seconds = ((performance.now() - this.began) / 1e3).toFixed(1), left = computed < cases ? "; it becomes finer" : "";
     this.told.textContent = `${computed} of ${cases} starts in ${seconds} s${left}.`;
     Object.assign(this.bar, { value: computed, max: cases });
+    this.task.tell(`${computed} of ${cases}`, computed / cases);
   }
 
   describe(head) {
@@ -186,10 +193,19 @@ export class Basin {
     this.attractors.replaceChildren(table("Attractors of the basin", ["attractor", "motion", model.main_output.label, "share of starts"], rows));
   }
 
-  hover(at, isKey) {
+  hover(at, isKey, event = null) {
+    if (at && event) this.beside(at, event); else tip.hide();
     const words = at ? this.words(at) : "\u00a0";
     this.hovered.textContent = words;
     if (at && isKey) say(words);
+  }
+
+  // Values beside the pointer.
+  beside(at, event) {
+    const { x, y } = this.data, label = this.last.labels[at.number], it = this.last.attractors.find((one) => one.label === label);
+    const rows = [x, y].map((axis, i) => tip.pair(axis.label, short(at.cell[i] * axis.factor)));
+    if (it) rows.push(tip.pair(model.main_output.label, shown(it[model.main_output.name], model.main_output)));
+    tip.show(event, { head: it ? `attractor ${label + 1}` : "undecided", colour: `rgb(${it?.colour ?? UNDECIDED})`, rows });
   }
 
   words(at) {

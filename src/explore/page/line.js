@@ -1,6 +1,8 @@
 // The bifurcation diagram along a line over the map, drawn as it is computed.
 
 import * as ask from "./ask.js";
+import * as busy from "./busy.js";
+import * as tip from "./tip.js";
 import { Branches } from "./branches.js";
 import { element, folded, labelled, parted, say, said, select } from "./element.js";
 import { copyButton, handOver, saveButtons } from "./keep.js";
@@ -42,13 +44,14 @@ export class Line {
     this.branches = new Branches(() => this.draw());
     const help = element("p", { id: "line-help", className: "note", textContent: "Click a value for its motion; arrows step along the line, Enter computes there." });
     this.values = element("div");
-    place.append(this.told, labelled("Each value starts", this.start), this.canvas, this.at, this.legend, help, this.branches.element, this.values, this.why, this.saving);
+    const tools = element("div", { className: "buttons" }, labelled("Each value starts", this.start), this.branches.button);
+    place.append(tools, this.told, this.canvas, this.at, this.legend, help, this.branches.told, this.values, this.why, this.saving);
     this.listen();
   }
 
   listen() {
     const { canvas } = this;
-    canvas.addEventListener("pointermove", (event) => this.hover(this.near(event), false));
+    canvas.addEventListener("pointermove", (event) => this.hover(this.near(event), false, event));
     canvas.addEventListener("pointerleave", () => this.hover(null, false));
     canvas.addEventListener("click", (event) => this.choose(this.near(event)));
     canvas.addEventListener("keydown", (event) => this.key(event));
@@ -61,6 +64,8 @@ export class Line {
     if (asked === this.asked) return;
     this.running?.abort();
     const running = new AbortController();
+    this.task?.end(false);
+    this.task = busy.begin("line", "Line");
     Object.assign(this, { running, asked, line, points: [], study: null, spot: null });
     this.start.value = line.start;
     this.values.replaceChildren();
@@ -71,9 +76,12 @@ export class Line {
     this.began = performance.now();
     try {
       await ask.lines("/api/line", this.pairs(), (it) => this.take(it), running.signal);
+      this.task.end();
       this.finish();
+      this.on.finished();
     } catch (it) {
       if (it.name === "AbortError") return;
+      this.task.end(false);
       this.asked = null;
       this.told.textContent = `${this.points.length ? `Stopped after ${this.points.length} values: ` : ""}${it.message}`;
       say(this.told.textContent);
@@ -90,6 +98,7 @@ export class Line {
   /** Computes nothing more. */
   stop() {
     this.running?.abort();
+    this.task?.end(false);
     this.branches.clear();
     this.asked = null;
     handOver("line", "", null);
@@ -100,6 +109,7 @@ export class Line {
     this.points.push(it);
     const done = this.points.length, left = (performance.now() - this.began) / done * (COUNT - done) / 1e3;
     this.told.textContent = `${done} of ${COUNT} values, ${left.toFixed(0)} s left`;
+    this.task.tell(`${done} of ${COUNT}`, done / COUNT);
     if (done === 1) say(`The line is computed: ${COUNT} values`);
     if (this.isWaiting) return;
     this.isWaiting = true;
@@ -214,12 +224,20 @@ export class Line {
     return place < this.points.length ? place : null;
   }
 
-  hover(place, isKey) {
+  hover(place, isKey, event = null) {
     this.spot = place;
+    if (place !== null && event) this.beside(place, event); else tip.hide();
     this.at.textContent = place === null ? "\u00a0" : this.words(place);
     if (isKey && place !== null) say(this.words(place));
     this.on.spot(place === null ? null : this.place(this.points[place].share));
     this.draw();
+  }
+
+  // Values beside the pointer.
+  beside(place, event) {
+    const it = this.points[place], at = this.place(it.share), { main_output: main } = model;
+    const rows = this.line.axes.map((axis) => tip.pair(axis.label, short(at[axis.name] * axis.factor)));
+    tip.show(event, { head: `${it.outcome}${it.period ? `, period ${it.period}` : ""}`, colour: colours()[kind(it.outcome).shade], rows: [...rows, tip.pair(main.label, shown(it[main.name], main))] });
   }
 
   words(place) {
@@ -252,7 +270,7 @@ export class Line {
 
   draw() {
     const made = context(this.canvas), { drawn } = made;
-    if (!this.line) return;
+    if (!this.line || !made.width) return;
     const x = this.axis(), [above, below] = this.areas(made), shades = colours(), outputs = this.outputs(), [first] = model.section;
     const at = (share) => this.place(share)[this.line.along.name] * this.line.along.factor;
     const ofPoints = this.points.flatMap((it) => this.section(it).map((value) => value * first.factor));

@@ -5,7 +5,8 @@ import { parted } from "./element.js";
 import { cross, cursor, dot, dots, front, letter, line, rectangle } from "./marks.js";
 import { colours, room, upward, words } from "./plot.js";
 import { Plane } from "./plane.js";
-import { alike, result, ticks } from "./ticks.js";
+import { numbers, share } from "./scale.js";
+import { result } from "./ticks.js";
 
 const SWATCH = 12;
 
@@ -42,15 +43,30 @@ export class CellMap extends Plane {
     return Number.isNaN(value) ? "no value" : result(value, parted(this.data.told)[1]);
   }
 
+  /** The colour of a cell; none where it has no value. */
+  colour({ number }) {
+    const [red, green, blue, opacity] = this.data.colours.slice(4 * number, 4 * number + 4);
+    return opacity ? `rgb(${red}, ${green}, ${blue})` : null;
+  }
+
+  /** What else is told of a cell, as names and texts. */
+  more() { return []; }
+
   /** The shares of a place in the units shown. */
   shown(x, y) { return [this.share(this.data.x, x), this.share(this.data.y, y)]; }
+
+  ends() { return this.marks.line?.map((it) => this.shares(it)) ?? []; }
+  fixed(end) { return this.marks.line[end]; }
 
   over(drawn, to) {
     const { marks } = this, place = (point) => to(this.shares(point));
     marks.curves?.lines(drawn, (x, y) => to(this.shown(x, y)));
     if (marks.rectangle) rectangle(drawn, marks.rectangle.map(place));
-    if (marks.line) line(drawn, marks.line.map(place));
-    if (this.gesture) ({ line, rectangle })[this.gesture.kind](drawn, [to(this.gesture.from), to(this.gesture.to)]);
+    // The line whose end is moved is drawn where it would be.
+    if (marks.line && this.gesture?.grip === undefined) line(drawn, marks.line.map(place));
+    if (!this.gesture) return;
+    const both = [to(this.gesture.from), to(this.gesture.to)];
+    ({ line, rectangle })[this.gesture.kind](drawn, this.gesture.grip === 0 ? both.reverse() : both);
   }
 
   // Marks at the edge of the map are not cut off.
@@ -106,29 +122,6 @@ function kinds(drawn, area, left, { key, told }) {
   });
 }
 
-// The share of the bar at which a value lies.
-function spread({ range: [low, high], spread, width }) {
-  const bent = { linear: (v) => v, log: Math.log, symlog: (v) => Math.asinh(v / width) }[spread];
-  return (value) => (bent(value) - bent(low)) / (bent(high) - bent(low));
-}
-
-// Values along the bar with their texts, those that stand clear of each other.
-function numbers(key, height) {
-  const [low, high] = key.range, share = spread(key);
-  if (key.spread !== "symlog") {
-    const { values, text } = ticks(low, high, key.spread === "log", height / 34);
-    return values.map((it) => [it, text(it)]);
-  }
-  const most = Math.max(Math.abs(low), Math.abs(high)), powers = [];
-  for (let power = Math.floor(Math.log10(most)); 10 ** power > key.width / 3; power--) powers.push(10 ** power, -(10 ** power));
-  const taken = [];
-  for (const value of [0, ...powers].filter((it) => it >= low && it <= high)) {
-    if (taken.every((it) => Math.abs(share(it) - share(value)) * height > 18)) taken.push(value);
-  }
-  const text = alike(taken);
-  return taken.map((it) => [it, text(it)]);
-}
-
 function bar(drawn, area, left, key) {
   const height = area.bottom - area.top, count = key.colours.length, { ink, faint } = colours();
   key.colours.forEach((rgb, i) => {
@@ -140,9 +133,9 @@ function bar(drawn, area, left, key) {
   drawn.fillStyle = ink;
   drawn.textAlign = "left";
   drawn.textBaseline = "middle";
-  const share = spread(key);
+  const at = share(key);
   for (const [value, text] of numbers(key, height)) {
-    const y = area.bottom - share(value) * height;
+    const y = area.bottom - at(value) * height;
     drawn.beginPath(); drawn.moveTo(left + SWATCH, y); drawn.lineTo(left + SWATCH + 4, y); drawn.stroke();
     drawn.fillText(text, left + SWATCH + 7, y);
   }

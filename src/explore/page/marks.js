@@ -43,9 +43,10 @@ export function letter(drawn, [x, y], text) {
   drawn.fillText(text, x, y + 0.5);
 }
 
-/** A line, with a ring where it begins. */
+/** A line, with a ring where it begins and a disc where it ends. */
 export function line(drawn, [from, to]) {
   rimmed(drawn, () => { drawn.moveTo(...from); drawn.lineTo(...to); }, LINE);
+  dot(drawn, to, LINE, 4);
   rimmed(drawn, () => drawn.arc(...from, 3.5, 0, 2 * Math.PI), LINE, 1.5);
 }
 

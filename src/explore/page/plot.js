@@ -94,9 +94,21 @@ export const places = (area, x, y) => ({
 /** The room of a frame on a canvas: ticks and labels to its left and below. */
 export const room = ({ width, height }) => ({ left: 70, top: 10, right: width - 18, bottom: height - 42 });
 
+/** The last frame of each canvas. */
+const framed = new WeakMap();
+
+/** The values at a place within the last frame of a canvas; none beyond it. */
+export function valuesAt(canvas, left, top) {
+  const { area, x, y } = framed.get(canvas) ?? {};
+  if (!area || left < area.left || left > area.right || top < area.top || top > area.bottom) return null;
+  const value = ({ range: [low, high], log }, share) => (log ? low * (high / low) ** share : low + share * (high - low));
+  return [value(x, (left - area.left) / (area.right - area.left)), value(y, (area.bottom - top) / (area.bottom - area.top))];
+}
+
 /** The frame, ticks and labels of a panel; an axis without a label has no numbers. Returns the places of values. */
 export function frame(drawn, area, x, y) {
   const place = places(area, x, y), { ink, faint } = colours();
+  framed.set(drawn.canvas, { area, x, y });
   drawn.strokeStyle = faint;
   drawn.fillStyle = ink;
   drawn.lineWidth = 1;

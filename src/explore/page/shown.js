@@ -8,6 +8,9 @@ import { prices } from "./tradeoff.js";
  * `curves` over the map. */
 export const page = { file: null, choices: null, map: null, line: null, basin: null, tradeOff: null, motions: null, curves: null };
 
+/** When the case was clicked whose motion is awaited; none where none is. */
+export const clicked = { at: null };
+
 /** Coordinates are the same if they differ by less than this, relative to their size. */
 const SAME = 1e-9;
 
