@@ -102,7 +102,7 @@ async function check(page, scheme) {
   await page.waitForFunction((before) => ![...document.querySelectorAll("#commands pre, #commands code")].some((it) => it.textContent === before), before);
   view.byKeys = (await command(page, "capsulemap simulate")) !== before;
 
-  await page.click("#trade-off-button");
+  await page.click("#trade-off-tab");
   await page.waitForSelector("#trade-off-section:not([hidden]) canvas");
   await page.waitForTimeout(500);
   await look(page, scheme, "trade-off");
@@ -115,6 +115,7 @@ async function check(page, scheme) {
   await page.mouse.move(...await point(page, 0.9, 0.5), { steps: 4 });
   await page.mouse.up();
   await page.waitForSelector("#line-section:not([hidden])");
+  view.inFront = await page.getAttribute("#line-tab", "aria-selected");
   await page.waitForFunction(() => [...document.querySelectorAll("#commands pre, #commands code")].some((it) => it.textContent.includes("name = \"bifurcation\"")), null, { timeout: 60_000 });
   view.line = await command(page, "name = \"bifurcation\"");
   await page.waitForFunction(() => document.getElementById("line-section").textContent.includes("values in"), null, { timeout: 60_000 });

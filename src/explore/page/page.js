@@ -9,7 +9,7 @@ import * as view from "./view.js";
 import { Basin } from "./basin.js";
 import { brush, selection } from "./brush.js";
 import { Choices } from "./choices.js";
-import { by, element, fault } from "./element.js";
+import { by, element, fault, marked } from "./element.js";
 import { facts } from "./facts.js";
 import { caseForm, fillForm, lineForm } from "./form.js";
 import { handMaps, nameSaving } from "./handed.js";
@@ -32,14 +32,14 @@ import { TradeOff, prices } from "./tradeoff.js";
 
 let asking = null;
 /** The cells that the marks over the map belong to. */
-let marked = null;
+let lying = null;
 async function showMap() {
   asking?.abort();
   const { signal } = asking = new AbortController(), begun = performance.now(), task = busy.begin("map", "Map");
   const asked = page.choices.asked(), cells = JSON.stringify({ ...asked, of: null });
   const data = await ask.map(asked, signal).catch((it) => { task.end(false); throw it; }), came = performance.now();
   // What lay over other cells is not over these.
-  if (cells !== marked) { marked = null; bare(); }
+  if (cells !== lying) { lying = null; bare(); }
   page.raw = data;
   paint();
   task.end();
@@ -47,8 +47,8 @@ async function showMap() {
   Object.assign(by("map").dataset, { milliseconds: (now - begun).toFixed(1), painted: (now - came).toFixed(1) });
   by("map").setAttribute("aria-label", `Map of ${data.told} over ${data.x.label} and ${data.y.label}, ${data.x.values.length} by ${data.y.values.length} cases`);
   document.body.dataset.ready = "true";
-  if (marked) select(); else await Promise.all([showTradeOff(signal), showCurves(signal)]);
-  marked = cells;
+  if (lying) select(); else await Promise.all([showTradeOff(signal), showCurves(signal)]);
+  lying = cells;
   painted = Object.fromEntries(page.choices.keys().map((key) => [key, view.text(key)]));
   mark();
   handMaps();
@@ -121,7 +121,7 @@ function showLine() {
   const along = map ? longer(map.data, from, to) : file.axes[0];
   const fixed = Object.entries(from).filter(([name, value]) => to[name] === value);
   const where = page.motions.words({ ...(map ? page.choices.held() : {}), ...Object.fromEntries(fixed) });
-  by("line-heading").textContent = `Bifurcation diagram${map ? " along the line" : ""}${where ? `: ${where}` : ""}`;
+  by("line-heading").replaceChildren(...marked(`Bifurcation diagram${map ? " along the line" : ""}${where ? `: ${where}` : ""}`));
   return line.follow({ from, to, held: { ...(map ? page.choices.held() : {}), ...page.choices.from() }, start, axes: axes(), along });
 }
 
@@ -248,7 +248,7 @@ async function open(file) {
 // Takes the file and the map as they are now; the view stays.
 async function again() {
   Object.assign(page.file, await ask.object("/api/file"));
-  marked = null;
+  lying = null;
   describe();
   if (page.map) await mapChanged((...keys) => keys.includes("of"));
 }
