@@ -3,10 +3,10 @@
 import * as ask from "./ask.js";
 import * as busy from "./busy.js";
 import * as tip from "./tip.js";
-import { button, element, labelled, parted, say, said, table } from "./element.js";
+import { button, element, labelled, marked, parted, say, said, table } from "./element.js";
 import { isReversed } from "./form.js";
 import { handOver, saveButtons } from "./keep.js";
-import { cross, cursor, dot, entry, rimmed } from "./marks.js";
+import { cross, cursor, entry, rimmed, sectionPoint } from "./marks.js";
 import { model, shown } from "./model.js";
 import { Plane } from "./plane.js";
 import { short } from "./ticks.js";
@@ -15,12 +15,6 @@ const UNDECIDED = [136, 136, 136];
 // The coordinates of the starts of the plane, and what the ends of their ranges are called in requests.
 const plane = () => model.starts.slice(0, 2);
 const ends = () => plane().flatMap(({ name }) => [`${name}_from`, `${name}_to`]);
-
-// The colour of the attractor within black, which is seen on the basin of the same colour.
-function sectionPoint(drawn, place, shade) {
-  dot(drawn, place, "#000000", 6);
-  dot(drawn, place, shade, 3.5);
-}
 
 /** The basins on a canvas, as a plane; `stop` is where the first coordinate meets the surface of impacts, and `points` are section points with their colours, in SI. */
 class BasinPlane extends Plane {
@@ -138,7 +132,7 @@ export class Basin {
     this.plane.stop = head.surface ?? NaN;
     // The plane varies the other two coordinates of the start.
     const held = head.held.map(({ name, value, unit }) => `${name} = ${short(value)}${unit && ` ${unit}`}`).join(", ");
-    this.heading.textContent = `At ${this.at}. Every start has ${held}.`;
+    this.heading.replaceChildren(...marked(`At ${this.at}. Every start has ${held}.`));
     const all = [...head.x.range, ...head.y.range];
     this.inputs.forEach((input, i) => { input.value = String(Number(all[i].toPrecision(6))); });
     handOver("basin", "Basin: study for capsulemap sweep", head.study, true);

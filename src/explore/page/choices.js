@@ -1,6 +1,7 @@
 // What the map shows: output, axes, direction of the sweep, and the values of the axes that are not drawn.
 
 import * as view from "./view.js";
+import { isBasin } from "./attractors.js";
 import { by, element, labelled, parted, select } from "./element.js";
 import { short } from "./ticks.js";
 
@@ -20,11 +21,11 @@ export class Choices {
   /** The output and the axes of the map; the last two axes unless others are chosen. */
   chosen() {
     const { axes, outputs } = this.file, known = (key, all) => all.find((it) => it.name === view.text(key));
-    // Over starts alone it is the attractor that differs.
-    const isBasin = axes.length > 0 && axes.every((it) => it.name.startsWith("start_")), first = isBasin && outputs.find((it) => it.name === "attractor");
+    // Over starts alone it is the attractor that differs, and the first coordinate lies across.
+    const isPlane = isBasin(this.file), first = isPlane && outputs.find((it) => it.name === "attractor");
     const usual = first || outputs.find((it) => it.name === this.file.model.main_output.name) || outputs[0];
-    const x = known("x", axes) || axes.at(-1), others = axes.filter((it) => it !== x);
-    const y = others.find((it) => it.name === view.text("y")) || others.at(-1);
+    const x = known("x", axes) || axes.at(isPlane ? 0 : -1), others = axes.filter((it) => it !== x);
+    const y = others.find((it) => it.name === view.text("y")) || others.at(isPlane ? 0 : -1);
     return { of: (known("of", outputs) || usual).name, x: x?.name, y: y?.name };
   }
 

@@ -2,11 +2,11 @@
 
 import { hatch } from "./cells.js";
 import { parted } from "./element.js";
-import { cross, cursor, dot, dots, front, letter, line, rectangle } from "./marks.js";
-import { colours, room, upward, words } from "./plot.js";
+import { cross, cursor, dot, dots, front, letter, line, rectangle, sectionPoint } from "./marks.js";
+import { colours, room, upward } from "./plot.js";
 import { Plane } from "./plane.js";
 import { numbers, share } from "./scale.js";
-import { result } from "./ticks.js";
+import { result, short } from "./ticks.js";
 
 const SWATCH = 12;
 
@@ -14,7 +14,7 @@ const SWATCH = 12;
 export class CellMap extends Plane {
   constructor(canvas, on) {
     super(canvas, on);
-    this.marks = { pins: [], line: null, rectangle: null, fronts: {}, curves: null, spot: null };
+    this.marks = { pins: [], line: null, rectangle: null, fronts: {}, curves: null, spot: null, attractors: [] };
   }
 
   /** Shows other cells; the mark and what is seen stay if the axes are the same. */
@@ -73,6 +73,7 @@ export class CellMap extends Plane {
   above(drawn, put) {
     const { marks } = this, at = (point, mark) => put(this.shares(point), mark);
     marks.curves?.points(drawn, (x, y, mark) => put(this.shown(x, y), mark));
+    marks.attractors.forEach(({ at: place, colour }) => at(place, (drawn, to) => sectionPoint(drawn, to, `rgb(${colour})`)));
     this.drawFronts(drawn, at);
     marks.pins.forEach(({ point, name }) => at(point, (drawn, place) => letter(drawn, place, name)));
     if (marks.spot) at(marks.spot, (drawn, place) => dot(drawn, place, colours().mark, 5));
@@ -97,21 +98,28 @@ export class CellMap extends Plane {
   }
 }
 
-function keyRoom(canvas, { key, told }) {
+// The names of the kinds, with the share of the cases that are of each.
+function shares({ kinds }, values) {
+  const counts = kinds.map(() => 0);
+  values.forEach((kind) => { if (kind in counts) counts[kind]++; });
+  return kinds.map(([name], i) => `${name}, ${short(100 * counts[i] / values.length, 2)} %`);
+}
+
+function keyRoom(canvas, { key, values }) {
   const drawn = canvas.getContext("2d");
   drawn.font = "12px system-ui, sans-serif";
-  const texts = key.kinds ? [told, ...key.kinds.map(([name]) => name)] : numbers(key, 300).map(([, text]) => text);
+  const texts = key.kinds ? shares(key, values) : numbers(key, 300).map(([, text]) => text);
   const widest = Math.max(30, ...texts.map((it) => drawn.measureText(it).width));
   return Math.min(key.kinds ? widest + 42 : widest + 62, 230);
 }
 
-function kinds(drawn, area, left, { key, told }) {
-  const { ink, faint } = colours();
+// The kinds with their shares of the cases; what they are of is told above the map.
+function kinds(drawn, area, left, { key, values }) {
+  const { ink, faint } = colours(), texts = shares(key, values);
   drawn.textBaseline = "middle";
-  drawn.fillStyle = ink;
-  words(drawn, told, left, area.top + 8, "left");
-  key.kinds.forEach(([name, rgb], i) => {
-    const top = area.top + 22 + 18 * i, swatch = { left, top, right: left + SWATCH, bottom: top + SWATCH };
+  key.kinds.forEach((_, i) => {
+    const rgb = key.kinds[i][1], name = texts[i];
+    const top = area.top + 2 + 18 * i, swatch = { left, top, right: left + SWATCH, bottom: top + SWATCH };
     if (rgb) { drawn.fillStyle = `rgb(${rgb})`; drawn.fillRect(left, top, SWATCH, SWATCH); } else hatch(drawn, swatch);
     drawn.strokeStyle = faint;
     drawn.lineWidth = 0.5;

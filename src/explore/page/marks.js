@@ -68,6 +68,12 @@ export function dot(drawn, [x, y], shade, radius = 3.5, rim = RIM) {
   drawn.stroke();
 }
 
+/** A section point in the colour of its attractor, within black, so that it is seen on the basin of the same colour. */
+export function sectionPoint(drawn, place, shade) {
+  dot(drawn, place, INK, 6);
+  dot(drawn, place, shade, 3.5);
+}
+
 /** Dots that are more than this have no rims and are smaller: rims would hide what lies under them. */
 const MANY = 60;
 

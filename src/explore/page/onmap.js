@@ -3,7 +3,7 @@
 import * as tip from "./tip.js";
 import * as view from "./view.js";
 import { brush } from "./brush.js";
-import { by, said, say } from "./element.js";
+import { by, marked, said, say } from "./element.js";
 import { legend } from "./legend.js";
 import { axes, clicked, here, named, page, price } from "./shown.js";
 import { pane } from "./tabs.js";
@@ -25,7 +25,7 @@ export function hover(cell, isKey, event = null) {
   // Between the cases the map has the value of the case of the cell.
   const point = () => (map.isExact ? ` (the point: ${axes().map((it, i) => said(it.label, cell.point[i] * it.factor)).join("; ")})` : "");
   const words = cell ? `${[said(map.data.told, map.told(cell)), ...here(cell.cell)].join("; ")}${point()}` : "\u00a0";
-  by("told").textContent = words;
+  by("told").replaceChildren(...marked(words));
   if (cell && event) beside(cell, event); else tip.hide();
   if (cell && isKey) { say(words); legend(); }
   if (price()) tradeOff.mark(tradeOff.chosen, cell ? cell.number : null);

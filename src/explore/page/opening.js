@@ -3,6 +3,7 @@
 import * as tabs from "./tabs.js";
 import * as view from "./view.js";
 import { button, by, element } from "./element.js";
+import { isBasin } from "./attractors.js";
 import { icon } from "./icons.js";
 import { page, price } from "./shown.js";
 
@@ -18,8 +19,8 @@ const whole = ({ axes: [axis] }) => [axis.values[0], axis.values.at(-1)].map((it
 export function wait(file, largest) {
   const hasMap = file.axes.length > 1, draw = () => by("line-button").click();
   const how = { 0: "Compute a case by its numbers.", 1: "Click a value of the diagram for its motion, or compute a case by its numbers." }[file.axes.length];
-  const most = button("Show the case with the largest value", largest, { id: "largest-button" });
-  empty("motion-empty", "motion", how || "Click a cell of the map.", ...(hasMap ? [most] : []));
+  const most = button("Show the case with the largest value", largest);
+  empty("motion-empty", "motion", how || "Click a cell of the map.", ...(hasMap && !isBasin(file) ? [most] : []));
   empty("line-empty", "line", "A line over the map gives the bifurcation diagram along it, while it is computed.", button("Draw a line", draw));
   empty("basin-empty", "basin", "The basins at the parameters of a case: choose the case, then ask for them with Basin.");
   empty("branches-empty", "special", "Branches of periodic orbits, stable or not: ask for them below a bifurcation diagram with “Follow branches”.");
@@ -29,7 +30,10 @@ export function wait(file, largest) {
 export function lay(file) {
   const hasMap = file.axes.length > 1;
   document.body.classList.toggle("without-map", !hasMap);
+  if (isBasin(file) && !view.text("at")) tabs.begin("basin");
   if (hasMap) return true;
+  // There are no tools of a map.
+  document.querySelector("#motion-section > .buttons").prepend(by("basin-button"));
   for (const it of ["choices", "map-place"]) by(it).hidden = true;
   by("whole-place").hidden = false;
   tabs.remove("trade-off");

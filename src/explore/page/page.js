@@ -1,6 +1,7 @@
 // The page: what is chosen, and the views that show it.
 
 import * as ask from "./ask.js";
+import * as attractors from "./attractors.js";
 import * as busy from "./busy.js";
 import * as colouring from "./colouring.js";
 import * as divider from "./divider.js";
@@ -43,6 +44,7 @@ async function showMap() {
   page.raw = data;
   paint();
   task.end();
+  attractors.find(data, chooseOnMap, signal).catch(fault);
   const now = performance.now();
   Object.assign(by("map").dataset, { milliseconds: (now - begun).toFixed(1), painted: (now - came).toFixed(1) });
   by("map").setAttribute("aria-label", `Map of ${data.told} over ${data.x.label} and ${data.y.label}, ${data.x.values.length} by ${data.y.values.length} cases`);

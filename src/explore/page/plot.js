@@ -151,5 +151,5 @@ function upwards(drawn, area, y, place) {
     drawn.beginPath(); drawn.moveTo(area.left, at); drawn.lineTo(area.left - 4, at); drawn.stroke();
     drawn.fillText(said.texts[i], area.left - 7, at);
   });
-  upward(drawn, counted(y.label, said), area.left - 58, (area.top + area.bottom) / 2);
+  upward(drawn, counted(y.label, said), area.left - 61, (area.top + area.bottom) / 2);
 }

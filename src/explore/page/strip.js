@@ -18,7 +18,7 @@ function chosen() {
 }
 
 function cell(name, value, unit = "", more = {}) {
-  const number = element("dd", {}, value, ...(unit ? [" ", element("span", { className: "unit", textContent: unit })] : []));
+  const number = element("dd", {}, element("span", {}, value), ...(unit ? [element("span", { className: "unit", textContent: unit })] : []));
   return element("div", more, element("dt", {}, ...marked(name)), number);
 }
 

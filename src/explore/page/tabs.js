@@ -4,7 +4,7 @@ import * as view from "./view.js";
 import { by } from "./element.js";
 
 /** The view in front where the address names none. */
-const FIRST = "motion";
+let first = "motion";
 const NAMES = ["motion", "line", "basin", "trade-off", "branches", "data"];
 const asked = new Map();
 
@@ -14,11 +14,14 @@ const there = () => NAMES.filter((name) => !tab(name).hidden);
 /** The view that is in front. */
 export function front() {
   const name = view.text("pane");
-  return there().includes(name) ? name : FIRST;
+  return there().includes(name) ? name : first;
 }
 
 /** What of the address brings a view to the front. */
-export const pane = (name) => ({ pane: name === FIRST ? null : name });
+export const pane = (name) => ({ pane: name });
+
+/** Puts another view in front where the address names none. */
+export const begin = (name) => { first = name; turn(); };
 
 /** Shows the view that the address names. */
 export function turn() {

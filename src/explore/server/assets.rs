@@ -16,6 +16,7 @@ macro_rules! assets {
 
 const ASSETS: &[(&str, &[u8])] = assets![
     "ask.js",
+    "attractors.js",
     "basin.js",
     "branches.js",
     "brush.js",
