@@ -30,7 +30,7 @@ function over({ x, y }, { stroboscopic }) {
 /** Finds the attractors of the map as it is now: the motion of one start of each; `choose` shows the motion of a point. */
 export async function find(data, choose, signal) {
   by("attractors").replaceChildren();
-  page.map.set({ attractors: [] });
+  if (page.map.marks.attractors.length) page.map.set({ attractors: [] });
   if (!isBasin(page.file) || page.choices.chosen().of !== NAME || !data.key.kinds) return;
   const { x, y } = data, columns = x.values.length, all = cellsOf(data), marks = [], rows = [];
   for (const [i, [name, colour]] of data.key.kinds.slice(0, MOST).entries()) {

@@ -4,7 +4,7 @@ import * as ask from "./ask.js";
 import * as busy from "./busy.js";
 import * as tip from "./tip.js";
 import { Branches } from "./branches.js";
-import { element, folded, labelled, parted, say, said, select } from "./element.js";
+import { button, element, folded, labelled, parted, say, said, select } from "./element.js";
 import { copyButton, handOver, saveButtons } from "./keep.js";
 import { entry } from "./marks.js";
 import { mainOutput, model, shown } from "./model.js";
@@ -44,7 +44,8 @@ export class Line {
     this.branches = new Branches(() => this.draw());
     const help = element("p", { id: "line-help", className: "note", textContent: "Click a value for its motion; arrows step along the line, Enter computes there." });
     this.values = element("div");
-    const tools = element("div", { className: "buttons" }, labelled("Each value starts", this.start), this.branches.button);
+    const turn = button("Turn round", () => on.turn(), { id: "turn-button", title: "The line from its end to its beginning: the other sweep" });
+    const tools = element("div", { className: "buttons" }, labelled("Each value starts", this.start), turn, this.branches.button);
     place.append(tools, this.told, this.canvas, this.at, this.legend, help, this.branches.told, this.values, this.why, this.saving);
     this.listen();
   }
@@ -100,6 +101,7 @@ export class Line {
     this.running?.abort();
     this.task?.end(false);
     this.branches.clear();
+    if (this.asked) this.on.spot(null);
     this.asked = null;
     handOver("line", "", null);
   }
@@ -113,7 +115,12 @@ export class Line {
     if (done === 1) say(`The line is computed: ${COUNT} values`);
     if (this.isWaiting) return;
     this.isWaiting = true;
-    requestAnimationFrame(() => { this.isWaiting = false; this.draw(); });
+    requestAnimationFrame(() => {
+      this.isWaiting = false;
+      this.draw();
+      // What is computed now is marked on the map.
+      if (this.spot === null && this.line) this.on.spot(this.points.length < COUNT && this.points.length ? this.place(this.points.at(-1).share) : null);
+    });
   }
 
   // What the server says of the line as a whole.

@@ -193,6 +193,7 @@ function build(file) {
   page.basin = new Basin(by("basin-place"), { choose, range: (all) => view.step({ starts: all && all.join(",") }), shown: () => page.basin.mark(chosen()) });
   page.line = new Line(by("line-place"), {
     choose, start: (start) => view.step({ start }), spot: (it) => page.map?.set({ spot: it && axes().map((axis) => it[axis.name]) }),
+    turn: () => view.step({ line: view.text("line").split("~").reverse().join("~") }),
     // The branches that the file has are followed beside its own diagram.
     finished: () => { if (!page.map && file.has_curves) page.line.branches.follow(); },
   });
