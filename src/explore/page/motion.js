@@ -151,7 +151,7 @@ function options(label, all, charts, width, isLast) {
   return {
     width, height: HEIGHT + (isLast ? TITLE : 0) - 18, padding: [8, 14, 0, 0], cursor: { y: false, drag: { x: false, y: false }, sync: { key: charts.synced }, points: { size: 6 } }, legend: { show: false },
     scales: { x: { time: false, range: () => charts.scales["Time (s)"] }, y: { range: () => charts.scales[label] } },
-    axes: [{ ...axis, ...title, size: 22, space: 62 }, { ...axis, size: 42, space: 26 }],
+    axes: [{ ...axis, ...title, size: 22, space: 62 }, { ...axis, size: 42, space: 22 }],
     series: [{}, ...all.map(([, , shade, , dash]) => ({ stroke: shades[shade], width: 1.6, dash, points: { show: false } }))],
   };
 }

@@ -25,7 +25,7 @@ export class Motions {
   /** The coordinates of a case in words. */
   words(coordinates) {
     const starts = coordinates.from ? [] : this.file.model.starts;
-    const shown = [...this.file.axes, ...this.file.constants, ...starts];
+    const shown = [...this.file.axes, ...(this.file.draws || []), ...this.file.constants, ...starts];
     const isNew = (it, i) => shown.findIndex((other) => other.name === it.name) === i;
     const words = shown.filter((it, i) => isNew(it, i) && it.name in coordinates).map((it) => said(it.label, coordinates[it.name] * it.factor));
     const more = [coordinates.sweep && `sweep ${coordinates.sweep}`, coordinates.from && "from the motion of the line"];

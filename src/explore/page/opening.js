@@ -18,7 +18,7 @@ const whole = ({ axes: [axis] }) => [axis.values[0], axis.values.at(-1)].map((it
 /** Fills the views that show nothing yet; `largest` shows the case whose value on the map is largest. */
 export function wait(file, largest) {
   const hasMap = file.axes.length > 1, draw = () => by("line-button").click();
-  const how = { 0: "Compute a case by its numbers.", 1: "Click a value of the diagram for its motion, or compute a case by its numbers." }[file.axes.length];
+  const how = { 0: file.draws?.length ? "Click a case for its motion, or compute one by its numbers." : "Compute a case by its numbers.", 1: "Click a value of the diagram for its motion, or compute a case by its numbers." }[file.axes.length];
   const most = button("Show the case with the largest value", largest);
   empty("motion-empty", "motion", how || "Click a cell of the map.", ...(hasMap && !isBasin(file) ? [most] : []));
   empty("line-empty", "line", "A line over the map gives the bifurcation diagram along it, while it is computed.", button("Draw a line", draw));
@@ -50,6 +50,7 @@ export function lay(file) {
     if (!view.text("line")) view.set({ line: whole(file) });
   } else {
     by("map-heading").textContent = "Cases";
+    if (file.draws?.length) return false;
     by("whole-place").append(element("p", { className: "empty", textContent: `These are ${file.cases.toLocaleString("en")} cases without axes: compute a case by its numbers.` }));
   }
   document.body.dataset.ready = "true";

@@ -27,6 +27,7 @@ import { largest, lay, turnToTradeOff, wait } from "./opening.js";
 import { bare, mark, select, showCurves, showTradeOff } from "./overlay.js";
 import { recoloured } from "./plot.js";
 import { watch } from "./progress.js";
+import { Scatter } from "./scatter.js";
 import { axes, chosen, clicked, ends, page, pins } from "./shown.js";
 import { isSeen, listenToMap, listenToSteps, look, looked, offerSteps, pressed, switched } from "./tools.js";
 import { TradeOff, prices } from "./tradeoff.js";
@@ -242,6 +243,8 @@ async function open(file) {
     if (prices(file).length) tabs.turned("trade-off", () => turnToTradeOff(prices(file)));
     else tabs.remove("trade-off");
   }
+  // Draws have no axes, and are shown over what was drawn.
+  if (file.draws?.length) new Scatter(by("whole-place"), { choose }).show().then(() => { document.body.dataset.ready = "true"; }, fault);
   view.changed(changed);
   recoloured("legend", legend);
   await changed(["of", "exact", "at", "pins", "same", "line", "basin"]);

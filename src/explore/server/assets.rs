@@ -54,6 +54,7 @@ const ASSETS: &[(&str, &[u8])] = assets![
     "progress.js",
     "ramps.js",
     "scale.js",
+    "scatter.js",
     "shown.js",
     "snap.js",
     "strip.js",
