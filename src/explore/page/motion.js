@@ -7,7 +7,8 @@ import { model } from "./model.js";
 import { colours, context, frame, redrawn, room, valuesAt, within } from "./plot.js";
 import { range, short } from "./ticks.js";
 
-const HEIGHT = 158;
+/** Height of a chart with its title, so that three of them stand in the window beside the map [CSS pixels]. */
+const height = () => Math.round(Math.min(Math.max((window.innerHeight - 330) / 3, 140), 230));
 /** The colours and dashes of the signals of a chart, in their order. */
 const SHADES = ["first", "second", "third", "fourth"];
 const DASHES = [undefined, [7, 3], [2, 3], [10, 3]];
@@ -149,7 +150,7 @@ function options(label, all, charts, width, isLast) {
   const axis = { stroke: shades.faint, grid: { stroke: shades.line, width: 0.5 }, ticks: { stroke: shades.line, size: 4 }, font: FONT, labelFont: FONT, labelSize: TITLE, gap: 3, values: (_, all) => all.map((it) => (it === null ? "" : short(it))) };
   const title = isLast ? { label: "Time (s)", labelGap: 0 } : {};
   return {
-    width, height: HEIGHT + (isLast ? TITLE : 0) - 18, padding: [8, 14, 0, 0], cursor: { y: false, drag: { x: false, y: false }, sync: { key: charts.synced }, points: { size: 6 } }, legend: { show: false },
+    width, height: height() + (isLast ? TITLE : 0) - 18, padding: [8, 14, 0, 0], cursor: { y: false, drag: { x: false, y: false }, sync: { key: charts.synced }, points: { size: 6 } }, legend: { show: false },
     scales: { x: { time: false, range: () => charts.scales["Time (s)"] }, y: { range: () => charts.scales[label] } },
     axes: [{ ...axis, ...title, size: 22, space: 62 }, { ...axis, size: 42, space: 22 }],
     series: [{}, ...all.map(([, , shade, , dash]) => ({ stroke: shades[shade], width: 1.6, dash, points: { show: false } }))],
