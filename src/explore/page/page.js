@@ -219,7 +219,8 @@ function describe() {
   by("about").textContent = `${file.file}: ${file.cases.toLocaleString("en")} cases; ${file.program}`;
   by("about").title = by("about").textContent;
   by("study").textContent = file.study;
-  by("facts").replaceChildren(...facts(file));
+  // Tables that are open stay so while a run goes on.
+  if (!by("facts").childElementCount) by("facts").replaceChildren(...facts(file));
   document.title = `${file.title}: capsulemap explore`;
   const command = element("code", { textContent: `capsulemap explore ${quoted(file.file)}` });
   by("again-hint").replaceChildren("To see this view on another day, start ", command, " again and put the part of this address from # behind the new address.");
