@@ -102,7 +102,7 @@ async function check(page, scheme) {
   await page.waitForFunction((before) => ![...document.querySelectorAll("#commands pre, #commands code")].some((it) => it.textContent === before), before);
   view.byKeys = (await command(page, "capsulemap simulate")) !== before;
 
-  await page.click("#trade-off-button");
+  await page.click("#trade-off-tab");
   await page.waitForSelector("#trade-off-section:not([hidden]) canvas");
   await page.waitForTimeout(500);
   await look(page, scheme, "trade-off");
@@ -115,6 +115,7 @@ async function check(page, scheme) {
   await page.mouse.move(...await point(page, 0.9, 0.5), { steps: 4 });
   await page.mouse.up();
   await page.waitForSelector("#line-section:not([hidden])");
+  view.inFront = await page.getAttribute("#line-tab", "aria-selected");
   await page.waitForFunction(() => [...document.querySelectorAll("#commands pre, #commands code")].some((it) => it.textContent.includes("name = \"bifurcation\"")), null, { timeout: 60_000 });
   view.line = await command(page, "name = \"bifurcation\"");
   await page.waitForFunction(() => document.getElementById("line-section").textContent.includes("values in"), null, { timeout: 60_000 });
@@ -135,6 +136,78 @@ async function check(page, scheme) {
   const bytes = readFileSync(await (await download).path());
   view.pdf = bytes.subarray(0, 4).toString();
   found.views[scheme] = view;
+  found.hash = new URL(page.url()).hash.slice(1).replace(/&?pane=[^&]*/, "").replace(/&?basin=[^&]*/, "");
+  await steps(page);
+}
+
+/** A condition that the page must meet. */
+function must(isMet, words) {
+  if (!isMet) throw new Error(words);
+}
+
+/** Goes through the widths of windows: nothing is cut off, and the map stays in sight beside the pane. */
+async function widths(state, scheme) {
+  for (const [width, height] of [[390, 844], [1280, 800], [1920, 1080]]) {
+    const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, storageState: state });
+    const page = await opened(context, `${new URL("/", address).href}#${found.hash}`);
+    await page.waitForSelector("#motions[data-milliseconds]");
+    for (const view of ["motion", "line", "trade-off", "data"]) {
+      await page.click(`#${view}-tab`);
+      await page.waitForTimeout(400);
+      await look(page, scheme, `${width}-${view}`);
+      const wide = await page.evaluate(() => [document.documentElement.scrollWidth, document.getElementById("pane").scrollWidth - document.getElementById("pane").clientWidth]);
+      must(wide[0] <= width && wide[1] <= 0, `at ${width} px the ${view} is wider than the window: ${wide}`);
+    }
+    if (width > 960) {
+      const [map, pane] = await Promise.all(["#map", "#pane"].map((it) => page.locator(it).boundingBox()));
+      must(map.y >= 0 && map.y + map.height <= height && map.x + map.width <= pane.x, `at ${width} px the map is out of sight`);
+      await page.evaluate(() => document.getElementById("data-section").scrollTo(0, 1e6));
+      must((await page.locator("#map").boundingBox()).y === map.y, "the map moves where the pane scrolls");
+    }
+    await context.close();
+  }
+}
+
+/** Steps are undone and done again, the tabs follow the arrows, colours go into the command, and the end of a line is dragged. */
+async function steps(page) {
+  await page.click("#data-tab");
+  await page.keyboard.press("ArrowRight");
+  must(await page.getAttribute("#motion-tab", "aria-selected") === "true", "the arrows do not go around the tabs");
+  const before = await page.evaluate(() => location.hash);
+  await page.click("#colours-button");
+  await page.selectOption("#colours-form select[name=colours]", "cividis");
+  await page.fill("#colours-form input[name=from]", "-20");
+  await page.fill("#colours-form input[name=to]", "20");
+  await page.click("#colours-form button:not([type=button])");
+  const figure = await command(page, "--colour-map progression_speed=cividis");
+  must(figure?.includes("-20 mm/s,20 mm/s"), `the colours are not in the command: ${figure}`);
+  await page.click("#undo-button");
+  await page.click("#undo-button");
+  await page.waitForFunction((before) => location.hash === before, before);
+  await page.click("#redo-button");
+  await page.waitForFunction(() => location.hash.includes("cividis"));
+  await page.click("#undo-button");
+  await page.waitForFunction((before) => location.hash === before, before);
+  await page.click("#colours-button");
+  const ends = () => page.evaluate(() => [...document.querySelectorAll("#line-form input")].map((it) => Number(it.value)));
+  const old = await ends(), [x, y] = await lineEnd(page);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 60, y - 40, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForFunction((old) => [...document.querySelectorAll("#line-form input")].some((it, i) => Number(it.value) !== old[i]), old);
+  const now = await ends();
+  must(now[0] === old[0] && now[1] === old[1] && now[2] < old[2] && now[3] > old[3], `the end of the line is not where it was dragged: ${old} to ${now}`);
+}
+
+/** The place of the end of the line on the page. */
+async function lineEnd(page) {
+  const to = await page.evaluate(async () => {
+    const { page: shown } = await import("/page/shown.js");
+    return shown.map.place(shown.map.ends()[1]);
+  });
+  const box = await page.locator("#map").boundingBox();
+  return [box.x + to[0], box.y + to[1]];
 }
 
 async function measure(page) {
@@ -162,8 +235,10 @@ try {
   } else {
     const state = await opening.storageState();
     await check(first, "light");
+    await widths(state, "light");
     const dark = await browser.newContext({ viewport: { width: 1400, height: 1000 }, colorScheme: "dark", storageState: state });
     await check(await opened(dark, new URL("/", address).href), "dark");
+    await widths(state, "dark");
     console.log(JSON.stringify(found));
   }
 } finally {

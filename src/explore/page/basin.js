@@ -1,10 +1,12 @@
 // The basins at some parameters: which attractor each start leads to, painted coarse and then finer.
 
 import * as ask from "./ask.js";
-import { button, element, labelled, parted, say, said, table } from "./element.js";
+import * as busy from "./busy.js";
+import * as tip from "./tip.js";
+import { button, element, labelled, marked, parted, say, said, table } from "./element.js";
 import { isReversed } from "./form.js";
 import { handOver, saveButtons } from "./keep.js";
-import { cross, cursor, dot, entry, rimmed } from "./marks.js";
+import { cross, cursor, entry, rimmed, sectionPoint } from "./marks.js";
 import { model, shown } from "./model.js";
 import { Plane } from "./plane.js";
 import { short } from "./ticks.js";
@@ -13,12 +15,6 @@ const UNDECIDED = [136, 136, 136];
 // The coordinates of the starts of the plane, and what the ends of their ranges are called in requests.
 const plane = () => model.starts.slice(0, 2);
 const ends = () => plane().flatMap(({ name }) => [`${name}_from`, `${name}_to`]);
-
-// The colour of the attractor within black, which is seen on the basin of the same colour.
-function sectionPoint(drawn, place, shade) {
-  dot(drawn, place, "#000000", 6);
-  dot(drawn, place, shade, 3.5);
-}
 
 /** The basins on a canvas, as a plane; `stop` is where the first coordinate meets the surface of impacts, and `points` are section points with their colours, in SI. */
 class BasinPlane extends Plane {
@@ -56,7 +52,7 @@ export class Basin {
     const help = element("p", { id: "basin-help", className: "note" });
     help.textContent = "Click a start for its motion. Keys: arrows move the mark, Enter computes there, + and − zoom, 0 shows all.";
     const choose = (point) => on.choose({ ...this.parameters, [this.data.x.name]: point[0], [this.data.y.name]: point[1] });
-    this.plane = new BasinPlane(this.canvas, { choose, hover: (at, isKey) => this.hover(at, isKey) });
+    this.plane = new BasinPlane(this.canvas, { choose, hover: (at, isKey, event) => this.hover(at, isKey, event) });
     this.saving = element("div", { className: "buttons" }, saveButtons("basin", "basin", () => ({ kind: "basin", ...this.request })));
     place.append(this.heading, this.told, this.bar, this.canvas, this.hovered, this.legend, this.attractors, help, this.ranges(), this.saving);
   }
@@ -87,6 +83,7 @@ export class Basin {
     Object.assign(this, { running, asked, request, parameters, data: null, last: null, began: performance.now() });
     this.heading.textContent = `At ${words}.`;
     this.at = words;
+    this.task = busy.begin("basin", "Basin");
     this.told.textContent = "The first starts are computed.";
     say("The basin is computed");
     Object.assign(this.bar, { value: 0, hidden: false });
@@ -96,9 +93,11 @@ export class Basin {
     try {
       await ask.lines("/api/basin", request, (it) => this.receive(it), running.signal);
       this.bar.hidden = true;
+      this.task.end();
       say(this.told.textContent);
     } catch (it) {
       if (it.name === "AbortError") return;
+      this.task.end(false);
       this.asked = null;
       this.bar.hidden = true;
       this.told.textContent = it.message;
@@ -109,6 +108,7 @@ export class Basin {
   /** Computes nothing more. */
   stop() {
     this.running?.abort();
+    this.task?.end(false);
     this.asked = null;
     handOver("basin", "", null);
   }
@@ -124,6 +124,7 @@ export class Basin {
     const seconds = ((performance.now() - this.began) / 1e3).toFixed(1), left = computed < cases ? "; it becomes finer" : "";
     this.told.textContent = `${computed} of ${cases} starts in ${seconds} s${left}.`;
     Object.assign(this.bar, { value: computed, max: cases });
+    this.task.tell(`${computed} of ${cases}`, computed / cases);
   }
 
   describe(head) {
@@ -131,7 +132,7 @@ export class Basin {
     this.plane.stop = head.surface ?? NaN;
     // The plane varies the other two coordinates of the start.
     const held = head.held.map(({ name, value, unit }) => `${name} = ${short(value)}${unit && ` ${unit}`}`).join(", ");
-    this.heading.textContent = `At ${this.at}. Every start has ${held}.`;
+    this.heading.replaceChildren(...marked(`At ${this.at}. Every start has ${held}.`));
     const all = [...head.x.range, ...head.y.range];
     this.inputs.forEach((input, i) => { input.value = String(Number(all[i].toPrecision(6))); });
     handOver("basin", "Basin: study for capsulemap sweep", head.study, true);
@@ -186,10 +187,19 @@ export class Basin {
     this.attractors.replaceChildren(table("Attractors of the basin", ["attractor", "motion", model.main_output.label, "share of starts"], rows));
   }
 
-  hover(at, isKey) {
+  hover(at, isKey, event = null) {
+    if (at && event) this.beside(at, event); else tip.hide();
     const words = at ? this.words(at) : "\u00a0";
     this.hovered.textContent = words;
     if (at && isKey) say(words);
+  }
+
+  // Values beside the pointer.
+  beside(at, event) {
+    const { x, y } = this.data, label = this.last.labels[at.number], it = this.last.attractors.find((one) => one.label === label);
+    const rows = [x, y].map((axis, i) => tip.pair(axis.label, short(at.cell[i] * axis.factor)));
+    if (it) rows.push(tip.pair(model.main_output.label, shown(it[model.main_output.name], model.main_output)));
+    tip.show(event, { head: it ? `attractor ${label + 1}` : "undecided", colour: `rgb(${it?.colour ?? UNDECIDED})`, rows });
   }
 
   words(at) {

@@ -2,7 +2,8 @@
 
 import * as ask from "./ask.js";
 import * as curves from "./curves.js";
-import { button, element, folded, say } from "./element.js";
+import * as busy from "./busy.js";
+import { button, by, element, folded, say, table } from "./element.js";
 import { entry } from "./marks.js";
 import { model, shown } from "./model.js";
 import { colours } from "./plot.js";
@@ -20,7 +21,7 @@ export class Branches {
     this.button = button("Follow branches", () => this.follow(), { id: "branches-button", hidden: true });
     this.told = element("p", { id: "branches-told", className: "note" });
     this.values = element("div");
-    this.element = element("div", {}, element("div", { className: "buttons" }, this.button), this.told, this.values);
+    by("branches-place").append(this.values);
   }
 
   /** Forgets the branches of a line that is no longer shown. */
@@ -30,6 +31,7 @@ export class Branches {
     this.button.hidden = true;
     this.told.textContent = "";
     this.values.replaceChildren();
+    by("branches-empty").hidden = !by("curves-place").hidden;
   }
 
   /** Offers to follow the branches of a line that is computed: `points` are its values, `pairs` what was asked of the server. */
@@ -42,13 +44,14 @@ export class Branches {
     const { line } = this, running = new AbortController();
     Object.assign(this, { running, all: [] });
     this.button.hidden = true;
-    const lost = new Set(), began = performance.now();
+    const lost = new Set(), began = performance.now(), task = busy.begin("branches", "Branches");
     let asked = 0, why = "";
     try {
       for (; asked < MOST; asked++) {
         const place = line.points.findIndex((it, i) => it.period && it.end && !lost.has(i) && !this.isOnBranch(it));
         if (place < 0) break;
         this.told.textContent = `Following branch ${asked + 1}.`;
+        task.tell(`branch ${asked + 1}`, asked / MOST);
         const { end, period } = line.points[place];
         const orbit = Object.fromEntries(end.map((value, i) => [`orbit_${model.starts[i].name}`, value]));
         await ask.lines("/api/branches", { ...line.pairs, ...orbit, period, place }, (it) => {
@@ -59,8 +62,10 @@ export class Branches {
         if (!this.isOnBranch(line.points[place])) lost.add(place);
         this.redraw();
       }
+      task.end();
       this.tell(((performance.now() - began) / 1e3).toFixed(1), why);
     } catch (it) {
+      task.end(false);
       if (it.name === "AbortError") return;
       this.told.textContent = `Branches: ${it.message}`;
       this.button.hidden = false;
@@ -79,7 +84,11 @@ export class Branches {
     say(this.told.textContent);
     const { main_output: main, section: [first] } = model, at = (it) => line.place(it.share);
     const rows = () => special.map((it) => [it.words, line.value(at(it)), short(it[first.name][0] * first.factor, 6), shown(it[main.name], main)]);
-    if (special.length) this.values.replaceChildren(folded(`Special points (${special.length})`, ["point", line.label, first.label, main.label], rows));
+    const end = (it) => line.value(at(it)), part = (points) => points.filter((it) => it.stable).length;
+    const branches = all.map((it, i) => [`branch ${i + 1}`, String(it.period), end(it.points[0]), end(it.points.at(-1)), String(it.points.length), `${short(100 * part(it.points) / it.points.length, 3)} %`]);
+    this.values.replaceChildren(element("p", { textContent: this.told.textContent }), ...(all.length ? [table("Branches", ["branch", "period", `from, ${line.label}`, `to, ${line.label}`, "orbits", "stable"], branches)] : []));
+    by("branches-empty").hidden = true;
+    if (special.length) this.values.append(folded(`Special points (${special.length})`, ["point", line.label, first.label, main.label], rows, true));
     this.redraw();
   }
 

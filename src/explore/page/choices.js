@@ -1,6 +1,7 @@
 // What the map shows: output, axes, direction of the sweep, and the values of the axes that are not drawn.
 
 import * as view from "./view.js";
+import { isBasin } from "./attractors.js";
 import { by, element, labelled, parted, select } from "./element.js";
 import { short } from "./ticks.js";
 
@@ -20,9 +21,11 @@ export class Choices {
   /** The output and the axes of the map; the last two axes unless others are chosen. */
   chosen() {
     const { axes, outputs } = this.file, known = (key, all) => all.find((it) => it.name === view.text(key));
-    const usual = outputs.find((it) => it.name === this.file.model.main_output.name) || outputs[0];
-    const x = known("x", axes) || axes.at(-1), others = axes.filter((it) => it !== x);
-    const y = others.find((it) => it.name === view.text("y")) || others.at(-1);
+    // Over starts alone it is the attractor that differs, and the first coordinate lies across.
+    const isPlane = isBasin(this.file), first = isPlane && outputs.find((it) => it.name === "attractor");
+    const usual = first || outputs.find((it) => it.name === this.file.model.main_output.name) || outputs[0];
+    const x = known("x", axes) || axes.at(isPlane ? 0 : -1), others = axes.filter((it) => it !== x);
+    const y = others.find((it) => it.name === view.text("y")) || others.at(isPlane ? 0 : -1);
     return { of: (known("of", outputs) || usual).name, x: x?.name, y: y?.name };
   }
 
@@ -90,7 +93,7 @@ export class Choices {
       at[it.name] = set[it.name];
     }
     if (view.coordinates(view.text("at"))) set.at = view.written(at);
-    view.set(set);
+    view.step(set);
   }
 
   /** Builds the form; only where other axes are drawn is it built anew. */
@@ -100,7 +103,7 @@ export class Choices {
     this.drawn = key;
     const focused = document.activeElement?.name;
     const outputs = this.file.outputs.map((it) => [it.name, it.label]), axes = this.file.axes.map((it) => [it.name, it.label]);
-    const fields = [labelled("Output", select("of", outputs, this.chosen().of, (of) => view.step({ of })))];
+    const fields = [labelled("Output", select("of", outputs, this.chosen().of, (of) => view.step({ of, limits: null, scale: null })))];
     for (const [name, text] of [["x", "Across"], ["y", "Up"]]) fields.push(labelled(text, select(name, axes, this.chosen()[name], (it) => this.turn(name, it))));
     const { directions } = this.file;
     if (directions.length > 1) {
@@ -115,7 +118,7 @@ export class Choices {
   // The case that is shown is then that of the other sweep.
   turnSweep(sweep) {
     const at = view.coordinates(view.text("at")), from = sweep === "difference" ? this.file.directions[0] : sweep;
-    view.set({ sweep, ...(at && !at.from ? { at: view.written({ ...at, sweep: from }) } : {}) });
+    view.step({ sweep, ...(at && !at.from ? { at: view.written({ ...at, sweep: from }) } : {}) });
   }
 
   slider(axis) {
@@ -135,7 +138,7 @@ export class Choices {
   // The place that is shown moves with the slider.
   slid(name, value) {
     const at = view.coordinates(view.text("at"));
-    view.set({ [name]: value, ...(at ? { at: view.written(view.moved(at, { [name]: value })) } : {}) });
+    view.settle({ [name]: value, ...(at ? { at: view.written(view.moved(at, { [name]: value })) } : {}) });
   }
 
   refresh() {

@@ -14,7 +14,9 @@ function value(input, { factor }, known) {
   return known.find((one) => Math.abs(one - typed) <= SAME * Math.abs(one)) ?? typed;
 }
 
-const put = (input, it, si) => { input.value = String(Number((si * it.factor).toPrecision(12))); };
+const put = (input, it, si) => { input.value = si === undefined ? "" : String(Number((si * it.factor).toPrecision(12))); };
+// The axes, and what was drawn where there are none.
+const varied = ({ axes, draws }) => [...axes, ...(draws || []).map((it) => ({ ...it, values: [] }))];
 
 /** Tells at the field of the upper end that it is not above the lower one; whether it is so. */
 export function isReversed(low, high, words) {
@@ -32,7 +34,7 @@ export function caseForm(file, choose) {
   const field = (it) => element("input", { type: "number", step: "any", name: it.name, required: true });
   const fields = (all) => all.map((it) => labelled(it.label, field(it)));
   const group = (words, all) => element("fieldset", {}, element("legend", { textContent: words }), ...fields(all));
-  const groups = [["Axes", file.axes], ["Constants", file.constants]].filter(([, all]) => all.length).map(([words, all]) => group(words, all));
+  const groups = [["Axes", file.axes], ["Draws", varied(file).slice(file.axes.length)], ["Constants", file.constants]].filter(([, all]) => all.length).map(([words, all]) => group(words, all));
   const usual = file.inherits ? "at the motion of the nearest case where all are empty" : "as the study says where all are empty";
   groups.push(group("Start (optional)", starts(file)));
   groups.at(-1).append(element("p", { className: "note", textContent: `The case starts ${usual}. A field that is empty beside others is as the study says.` }));
@@ -46,7 +48,7 @@ export function caseForm(file, choose) {
 
 // The axes, the constants that are other than in the file, and the start as far as it is given.
 function read(file) {
-  const { axes, constants } = file, field = ({ name }) => by("case-form").elements[name];
+  const { constants } = file, axes = varied(file), field = ({ name }) => by("case-form").elements[name];
   const all = axes.map((it) => [it.name, value(field(it), it, it.values)]);
   const others = constants.map((it) => [it.name, value(field(it), it, [it.value]), it.value]);
   const given = starts(file).filter((it) => field(it).value !== "").map((it) => [it.name, value(field(it), it, [])]);
@@ -55,7 +57,7 @@ function read(file) {
 
 /** Puts a case into the form; what it does not say is as in the file. */
 export function fillForm(file, coordinates) {
-  const { axes, constants } = file, field = ({ name }) => by("case-form").elements[name];
+  const { constants } = file, axes = varied(file), field = ({ name }) => by("case-form").elements[name];
   axes.forEach((it) => put(field(it), it, coordinates[it.name] ?? it.values[0]));
   constants.forEach((it) => put(field(it), it, coordinates[it.name] ?? it.value));
   for (const it of starts(file)) {

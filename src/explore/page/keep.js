@@ -51,15 +51,16 @@ function given(blob, name) {
 /** Saves a figure; the button tells that it is being drawn. */
 export async function save(pairs, format, pressed) {
   if (pressed.getAttribute("aria-disabled") === "true") return;
-  const words = pressed.textContent;
+  // A tool has its words beside its icon.
+  const place = pressed.querySelector(".words") ?? pressed, words = place.textContent;
   pressed.setAttribute("aria-disabled", "true");
-  pressed.textContent = "Being drawn …";
+  place.textContent = place === pressed ? "Being drawn …" : "…";
   say("The figure is being drawn");
   try {
     given(await ask.figure({ ...pairs, format }), `${pairs.kind}.${format}`);
     say("The figure is saved");
   } catch (it) { fault(it); }
-  pressed.textContent = words;
+  place.textContent = words;
   pressed.removeAttribute("aria-disabled");
 }
 

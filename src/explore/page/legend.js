@@ -2,7 +2,7 @@
 
 import * as curves from "./curves.js";
 import { by } from "./element.js";
-import { cross, cursor, dot, entry, front, letter, line, rectangle } from "./marks.js";
+import { cross, cursor, dot, entry, front, letter, line, rectangle, sectionPoint } from "./marks.js";
 import { chosen, onMap, page, pins } from "./shown.js";
 
 /** Tells what the marks on the map mean, and what is left out. */
@@ -14,6 +14,7 @@ export function legend() {
   for (const direction of ["forward", "backward"]) {
     if (marks.fronts[direction]?.some(isSeen)) made.push(entry(`front, ${direction}`, (drawn, place) => dot(drawn, place, front(direction))));
   }
+  if (marks.attractors.some(({ at }) => isSeen(at))) made.push(entry("section point of an attractor, in its colour", (drawn, place) => sectionPoint(drawn, place, "#888888")));
   if (map.chosen && map.isSeen(map.chosen)) made.push(entry("chosen case", (drawn, place) => cross(drawn, place)));
   if (map.hasCursor() && map.isSeen(map.mark)) made.push(entry("mark of the keyboard", (drawn, place) => cursor(drawn, place)));
   marks.pins.filter(({ point }) => isSeen(point)).forEach(({ name }) => made.push(entry(`pinned ${name}`, (drawn, place) => letter(drawn, place, name))));

@@ -1,8 +1,10 @@
 // The bifurcation diagram along a line over the map, drawn as it is computed.
 
 import * as ask from "./ask.js";
+import * as busy from "./busy.js";
+import * as tip from "./tip.js";
 import { Branches } from "./branches.js";
-import { element, folded, labelled, parted, say, said, select } from "./element.js";
+import { button, element, folded, labelled, parted, say, said, select } from "./element.js";
 import { copyButton, handOver, saveButtons } from "./keep.js";
 import { entry } from "./marks.js";
 import { mainOutput, model, shown } from "./model.js";
@@ -42,13 +44,15 @@ export class Line {
     this.branches = new Branches(() => this.draw());
     const help = element("p", { id: "line-help", className: "note", textContent: "Click a value for its motion; arrows step along the line, Enter computes there." });
     this.values = element("div");
-    place.append(this.told, labelled("Each value starts", this.start), this.canvas, this.at, this.legend, help, this.branches.element, this.values, this.why, this.saving);
+    const turn = button("Turn round", () => on.turn(), { id: "turn-button", title: "The line from its end to its beginning: the other sweep" });
+    const tools = element("div", { className: "buttons" }, labelled("Each value starts", this.start), turn, this.branches.button);
+    place.append(tools, this.told, this.canvas, this.at, this.legend, help, this.branches.told, this.values, this.why, this.saving);
     this.listen();
   }
 
   listen() {
     const { canvas } = this;
-    canvas.addEventListener("pointermove", (event) => this.hover(this.near(event), false));
+    canvas.addEventListener("pointermove", (event) => this.hover(this.near(event), false, event));
     canvas.addEventListener("pointerleave", () => this.hover(null, false));
     canvas.addEventListener("click", (event) => this.choose(this.near(event)));
     canvas.addEventListener("keydown", (event) => this.key(event));
@@ -61,6 +65,8 @@ export class Line {
     if (asked === this.asked) return;
     this.running?.abort();
     const running = new AbortController();
+    this.task?.end(false);
+    this.task = busy.begin("line", "Line");
     Object.assign(this, { running, asked, line, points: [], study: null, spot: null });
     this.start.value = line.start;
     this.values.replaceChildren();
@@ -71,9 +77,12 @@ export class Line {
     this.began = performance.now();
     try {
       await ask.lines("/api/line", this.pairs(), (it) => this.take(it), running.signal);
+      this.task.end();
       this.finish();
+      this.on.finished();
     } catch (it) {
       if (it.name === "AbortError") return;
+      this.task.end(false);
       this.asked = null;
       this.told.textContent = `${this.points.length ? `Stopped after ${this.points.length} values: ` : ""}${it.message}`;
       say(this.told.textContent);
@@ -90,7 +99,9 @@ export class Line {
   /** Computes nothing more. */
   stop() {
     this.running?.abort();
+    this.task?.end(false);
     this.branches.clear();
+    if (this.asked) this.on.spot(null);
     this.asked = null;
     handOver("line", "", null);
   }
@@ -100,10 +111,16 @@ export class Line {
     this.points.push(it);
     const done = this.points.length, left = (performance.now() - this.began) / done * (COUNT - done) / 1e3;
     this.told.textContent = `${done} of ${COUNT} values, ${left.toFixed(0)} s left`;
+    this.task.tell(`${done} of ${COUNT}`, done / COUNT);
     if (done === 1) say(`The line is computed: ${COUNT} values`);
     if (this.isWaiting) return;
     this.isWaiting = true;
-    requestAnimationFrame(() => { this.isWaiting = false; this.draw(); });
+    requestAnimationFrame(() => {
+      this.isWaiting = false;
+      this.draw();
+      // What is computed now is marked on the map.
+      if (this.spot === null && this.line) this.on.spot(this.points.length < COUNT && this.points.length ? this.place(this.points.at(-1).share) : null);
+    });
   }
 
   // What the server says of the line as a whole.
@@ -214,12 +231,20 @@ export class Line {
     return place < this.points.length ? place : null;
   }
 
-  hover(place, isKey) {
+  hover(place, isKey, event = null) {
     this.spot = place;
+    if (place !== null && event) this.beside(place, event); else tip.hide();
     this.at.textContent = place === null ? "\u00a0" : this.words(place);
     if (isKey && place !== null) say(this.words(place));
     this.on.spot(place === null ? null : this.place(this.points[place].share));
     this.draw();
+  }
+
+  // Values beside the pointer.
+  beside(place, event) {
+    const it = this.points[place], at = this.place(it.share), { main_output: main } = model;
+    const rows = this.line.axes.map((axis) => tip.pair(axis.label, short(at[axis.name] * axis.factor)));
+    tip.show(event, { head: `${it.outcome}${it.period ? `, period ${it.period}` : ""}`, colour: colours()[kind(it.outcome).shade], rows: [...rows, tip.pair(main.label, shown(it[main.name], main))] });
   }
 
   words(place) {
@@ -252,7 +277,7 @@ export class Line {
 
   draw() {
     const made = context(this.canvas), { drawn } = made;
-    if (!this.line) return;
+    if (!this.line || !made.width) return;
     const x = this.axis(), [above, below] = this.areas(made), shades = colours(), outputs = this.outputs(), [first] = model.section;
     const at = (share) => this.place(share)[this.line.along.name] * this.line.along.factor;
     const ofPoints = this.points.flatMap((it) => this.section(it).map((value) => value * first.factor));

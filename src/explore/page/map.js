@@ -2,10 +2,11 @@
 
 import { hatch } from "./cells.js";
 import { parted } from "./element.js";
-import { cross, cursor, dot, dots, front, letter, line, rectangle } from "./marks.js";
-import { colours, room, upward, words } from "./plot.js";
+import { cross, cursor, dot, dots, front, letter, line, rectangle, sectionPoint } from "./marks.js";
+import { colours, room, upward } from "./plot.js";
 import { Plane } from "./plane.js";
-import { alike, result, ticks } from "./ticks.js";
+import { numbers, share } from "./scale.js";
+import { result, short } from "./ticks.js";
 
 const SWATCH = 12;
 
@@ -13,7 +14,7 @@ const SWATCH = 12;
 export class CellMap extends Plane {
   constructor(canvas, on) {
     super(canvas, on);
-    this.marks = { pins: [], line: null, rectangle: null, fronts: {}, curves: null, spot: null };
+    this.marks = { pins: [], line: null, rectangle: null, fronts: {}, curves: null, spot: null, attractors: [] };
   }
 
   /** Shows other cells; the mark and what is seen stay if the axes are the same. */
@@ -42,21 +43,37 @@ export class CellMap extends Plane {
     return Number.isNaN(value) ? "no value" : result(value, parted(this.data.told)[1]);
   }
 
+  /** The colour of a cell; none where it has no value. */
+  colour({ number }) {
+    const [red, green, blue, opacity] = this.data.colours.slice(4 * number, 4 * number + 4);
+    return opacity ? `rgb(${red}, ${green}, ${blue})` : null;
+  }
+
+  /** What else is told of a cell, as names and texts. */
+  more() { return []; }
+
   /** The shares of a place in the units shown. */
   shown(x, y) { return [this.share(this.data.x, x), this.share(this.data.y, y)]; }
+
+  ends() { return this.marks.line?.map((it) => this.shares(it)) ?? []; }
+  fixed(end) { return this.marks.line[end]; }
 
   over(drawn, to) {
     const { marks } = this, place = (point) => to(this.shares(point));
     marks.curves?.lines(drawn, (x, y) => to(this.shown(x, y)));
     if (marks.rectangle) rectangle(drawn, marks.rectangle.map(place));
-    if (marks.line) line(drawn, marks.line.map(place));
-    if (this.gesture) ({ line, rectangle })[this.gesture.kind](drawn, [to(this.gesture.from), to(this.gesture.to)]);
+    // The line whose end is moved is drawn where it would be.
+    if (marks.line && this.gesture?.grip === undefined) line(drawn, marks.line.map(place));
+    if (!this.gesture) return;
+    const both = [to(this.gesture.from), to(this.gesture.to)];
+    ({ line, rectangle })[this.gesture.kind](drawn, this.gesture.grip === 0 ? both.reverse() : both);
   }
 
   // Marks at the edge of the map are not cut off.
   above(drawn, put) {
     const { marks } = this, at = (point, mark) => put(this.shares(point), mark);
     marks.curves?.points(drawn, (x, y, mark) => put(this.shown(x, y), mark));
+    marks.attractors.forEach(({ at: place, colour }) => at(place, (drawn, to) => sectionPoint(drawn, to, `rgb(${colour})`)));
     this.drawFronts(drawn, at);
     marks.pins.forEach(({ point, name }) => at(point, (drawn, place) => letter(drawn, place, name)));
     if (marks.spot) at(marks.spot, (drawn, place) => dot(drawn, place, colours().mark, 5));
@@ -81,21 +98,28 @@ export class CellMap extends Plane {
   }
 }
 
-function keyRoom(canvas, { key, told }) {
+// The names of the kinds, with the share of the cases that are of each.
+function shares({ kinds }, values) {
+  const counts = kinds.map(() => 0);
+  values.forEach((kind) => { if (kind in counts) counts[kind]++; });
+  return kinds.map(([name], i) => `${name}, ${short(100 * counts[i] / values.length, 2)} %`);
+}
+
+function keyRoom(canvas, { key, values }) {
   const drawn = canvas.getContext("2d");
   drawn.font = "12px system-ui, sans-serif";
-  const texts = key.kinds ? [told, ...key.kinds.map(([name]) => name)] : numbers(key, 300).map(([, text]) => text);
+  const texts = key.kinds ? shares(key, values) : numbers(key, 300).map(([, text]) => text);
   const widest = Math.max(30, ...texts.map((it) => drawn.measureText(it).width));
   return Math.min(key.kinds ? widest + 42 : widest + 62, 230);
 }
 
-function kinds(drawn, area, left, { key, told }) {
-  const { ink, faint } = colours();
+// The kinds with their shares of the cases; what they are of is told above the map.
+function kinds(drawn, area, left, { key, values }) {
+  const { ink, faint } = colours(), texts = shares(key, values);
   drawn.textBaseline = "middle";
-  drawn.fillStyle = ink;
-  words(drawn, told, left, area.top + 8, "left");
-  key.kinds.forEach(([name, rgb], i) => {
-    const top = area.top + 22 + 18 * i, swatch = { left, top, right: left + SWATCH, bottom: top + SWATCH };
+  key.kinds.forEach((_, i) => {
+    const rgb = key.kinds[i][1], name = texts[i];
+    const top = area.top + 2 + 18 * i, swatch = { left, top, right: left + SWATCH, bottom: top + SWATCH };
     if (rgb) { drawn.fillStyle = `rgb(${rgb})`; drawn.fillRect(left, top, SWATCH, SWATCH); } else hatch(drawn, swatch);
     drawn.strokeStyle = faint;
     drawn.lineWidth = 0.5;
@@ -104,29 +128,6 @@ function kinds(drawn, area, left, { key, told }) {
     drawn.textAlign = "left";
     drawn.fillText(name, left + SWATCH + 6, top + SWATCH / 2, 230 - 40);
   });
-}
-
-// The share of the bar at which a value lies.
-function spread({ range: [low, high], spread, width }) {
-  const bent = { linear: (v) => v, log: Math.log, symlog: (v) => Math.asinh(v / width) }[spread];
-  return (value) => (bent(value) - bent(low)) / (bent(high) - bent(low));
-}
-
-// Values along the bar with their texts, those that stand clear of each other.
-function numbers(key, height) {
-  const [low, high] = key.range, share = spread(key);
-  if (key.spread !== "symlog") {
-    const { values, text } = ticks(low, high, key.spread === "log", height / 34);
-    return values.map((it) => [it, text(it)]);
-  }
-  const most = Math.max(Math.abs(low), Math.abs(high)), powers = [];
-  for (let power = Math.floor(Math.log10(most)); 10 ** power > key.width / 3; power--) powers.push(10 ** power, -(10 ** power));
-  const taken = [];
-  for (const value of [0, ...powers].filter((it) => it >= low && it <= high)) {
-    if (taken.every((it) => Math.abs(share(it) - share(value)) * height > 18)) taken.push(value);
-  }
-  const text = alike(taken);
-  return taken.map((it) => [it, text(it)]);
 }
 
 function bar(drawn, area, left, key) {
@@ -140,9 +141,9 @@ function bar(drawn, area, left, key) {
   drawn.fillStyle = ink;
   drawn.textAlign = "left";
   drawn.textBaseline = "middle";
-  const share = spread(key);
+  const at = share(key);
   for (const [value, text] of numbers(key, height)) {
-    const y = area.bottom - share(value) * height;
+    const y = area.bottom - at(value) * height;
     drawn.beginPath(); drawn.moveTo(left + SWATCH, y); drawn.lineTo(left + SWATCH + 4, y); drawn.stroke();
     drawn.fillText(text, left + SWATCH + 7, y);
   }

@@ -43,9 +43,10 @@ export function letter(drawn, [x, y], text) {
   drawn.fillText(text, x, y + 0.5);
 }
 
-/** A line, with a ring where it begins. */
+/** A line, with a ring where it begins and a disc where it ends. */
 export function line(drawn, [from, to]) {
   rimmed(drawn, () => { drawn.moveTo(...from); drawn.lineTo(...to); }, LINE);
+  dot(drawn, to, LINE, 4);
   rimmed(drawn, () => drawn.arc(...from, 3.5, 0, 2 * Math.PI), LINE, 1.5);
 }
 
@@ -65,6 +66,12 @@ export function dot(drawn, [x, y], shade, radius = 3.5, rim = RIM) {
   drawn.lineWidth = 1;
   drawn.strokeStyle = rim;
   drawn.stroke();
+}
+
+/** A section point in the colour of its attractor, within black, so that it is seen on the basin of the same colour. */
+export function sectionPoint(drawn, place, shade) {
+  dot(drawn, place, INK, 6);
+  dot(drawn, place, shade, 3.5);
 }
 
 /** Dots that are more than this have no rims and are smaller: rims would hide what lies under them. */

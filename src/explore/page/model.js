@@ -10,7 +10,7 @@ export const model = {};
 export const learn = (told) => Object.assign(model, told);
 
 /** A value in SI of a quantity in the unit shown, without that. */
-export const shown = (value, { unit, factor }) => result(value === null || value === undefined ? null : value * factor, unit);
+export const shown = (value, { unit, factor }, digits = 5) => result(value === null || value === undefined ? null : value * factor, unit, digits);
 
 /** The main output of a motion in words. */
 export function mainOutput(value) {

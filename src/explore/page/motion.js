@@ -1,12 +1,14 @@
 // The charts of a motion: histories, phase portrait and stroboscopic section.
 
 import uPlot from "./uPlot.esm.js";
-import { element, parted } from "./element.js";
+import { element, marked, parted } from "./element.js";
+import * as tip from "./tip.js";
 import { model } from "./model.js";
-import { colours, context, frame, redrawn, room, within } from "./plot.js";
+import { colours, context, frame, redrawn, room, valuesAt, within } from "./plot.js";
 import { range, short } from "./ticks.js";
 
-const HEIGHT = 170;
+/** Height of a chart with its title, so that three of them stand in the window beside the map [CSS pixels]. */
+const height = () => Math.round(Math.min(Math.max((window.innerHeight - 330) / 3, 140), 230));
 /** The colours and dashes of the signals of a chart, in their order. */
 const SHADES = ["first", "second", "third", "fourth"];
 const DASHES = [undefined, [7, 3], [2, 3], [10, 3]];
@@ -48,12 +50,16 @@ export function common(motions) {
 /** The charts of a motion in a place; another motion is shown in the same charts. */
 export class Charts {
   constructor(place) {
-    Object.assign(this, { place, plots: [], it: null });
+    Object.assign(this, { place, plots: [], it: null, synced: `charts-${Math.random()}`, histories: element("div", { className: "histories" }) });
     this.canvases = (isPlane() ? [0, 1] : [0]).map(() => element("canvas", { className: "portrait", role: "img" }));
     this.portraits = element("div", { className: "portraits" }, ...this.canvases);
     const all = [drawPortrait, drawSection];
     this.canvases.forEach((canvas, i) => redrawn(canvas, () => this.it && all[i](canvas, this.it, this.scales)));
-    new ResizeObserver(() => this.fit()).observe(place);
+    this.canvases.forEach((canvas, i) => {
+      canvas.addEventListener("pointermove", (event) => this.it && beside(event, canvas, i ? model.section : model.portrait));
+      canvas.addEventListener("pointerleave", tip.hide);
+    });
+    new ResizeObserver(() => this.fit()).observe(this.histories);
   }
 
   /** Shows a motion with a history; `scales` are ranges to keep to, or none for its own. */
@@ -72,9 +78,18 @@ export class Charts {
     this.plots.forEach(({ plot }) => plot.destroy());
     this.plots = shown.map(([label, all]) => {
       const holder = element("div", { role: "img", className: "chart" });
-      return { holder, plot: new uPlot(options(label, all, this, Math.max(this.place.clientWidth, 200)), null, holder) };
+      return { holder, plot: null, label, all };
     });
-    this.place.replaceChildren(...this.plots.map(({ holder }) => holder), this.portraits);
+    this.histories.replaceChildren(...this.plots.map(({ holder }) => holder));
+    this.place.replaceChildren(this.histories, this.portraits);
+    // The width is known where the charts have their place.
+    const width = this.width();
+    this.plots.forEach((it, i) => {
+      it.holder.append(legend(it.label, it.all));
+      it.plot = new uPlot(options(it.label, it.all, this, width, i === shown.length - 1), null, it.holder);
+      it.plot.over.addEventListener("pointermove", (event) => this.beside(event, it));
+      it.plot.over.addEventListener("pointerleave", tip.hide);
+    });
   }
 
   fill({ plot, holder }, label, all) {
@@ -93,9 +108,19 @@ export class Charts {
     this.canvases.forEach((canvas, i) => canvas.setAttribute("aria-label", words[i]));
   }
 
+  width() { return Math.max(this.histories.clientWidth, 200); }
+
   fit() {
-    const width = this.place.clientWidth;
-    for (const { plot } of this.plots) if (width && width !== plot.width) plot.setSize({ width, height: HEIGHT });
+    const width = this.histories.clientWidth;
+    for (const { plot } of this.plots) if (width && width !== plot?.width) plot?.setSize({ width, height: plot.height });
+  }
+
+  // Values beside the pointer.
+  beside(event, { plot, all }) {
+    const at = plot.cursor.idx, shades = colours();
+    if (at === null || at === undefined) return tip.hide();
+    const rows = all.map(([, words], i) => [words, read(null, plot.data[i + 1][at])]);
+    tip.show(event, { head: `t = ${short(plot.data[0][at], 5)} s`, rows });
   }
 
   /** Shows nothing. */
@@ -105,21 +130,42 @@ export class Charts {
   }
 }
 
+// The title of a chart, which is that of its ordinate, and its signals with their strokes.
+function legend(label, all) {
+  const entry = ([, words, shade, , dash]) => {
+    const stroke = element("span", { className: `stroke ${dash ? (dash[0] > 4 ? "dashed" : "dotted") : "solid"}` });
+    stroke.style.borderColor = colours()[shade];
+    return element("li", {}, stroke, ...marked(words));
+  };
+  return element("div", { className: "chart-head" }, element("strong", {}, ...marked(label)), element("ul", {}, ...all.map(entry)));
+}
+
+const FONT = "11px system-ui, sans-serif";
+/** Height of the title of the time below the last chart. */
+const TITLE = 15;
+
 // The options of the chart of some columns; its ranges are those of the motion that `charts` shows.
-function options(label, all, charts, width) {
-  const shades = colours(), font = "12px system-ui, sans-serif";
-  const axis = { stroke: shades.ink, grid: { stroke: shades.line, width: 0.5 }, ticks: { stroke: shades.faint, size: 4 }, font, labelFont: font, labelSize: 16, values: (_, all) => all.map((it) => (it === null ? "" : short(it))) };
-  const border = (dash) => (dash ? (dash[0] > 4 ? "dashed" : "dotted") : "solid");
+function options(label, all, charts, width, isLast) {
+  const shades = colours();
+  const axis = { stroke: shades.faint, grid: { stroke: shades.line, width: 0.5 }, ticks: { stroke: shades.line, size: 4 }, font: FONT, labelFont: FONT, labelSize: TITLE, gap: 3, values: (_, all) => all.map((it) => (it === null ? "" : short(it))) };
+  const title = isLast ? { label: "Time (s)", labelGap: 0 } : {};
   return {
-    width, height: HEIGHT, padding: [10, 16, 0, 0], cursor: { y: false, drag: { x: false, y: false } },
+    width, height: height() + (isLast ? TITLE : 0) - 18, padding: [8, 14, 0, 0], cursor: { y: false, drag: { x: false, y: false }, sync: { key: charts.synced }, points: { size: 6 } }, legend: { show: false },
     scales: { x: { time: false, range: () => charts.scales["Time (s)"] }, y: { range: () => charts.scales[label] } },
-    axes: [{ ...axis, label: "Time (s)", size: 26, labelGap: 0 }, { ...axis, label, size: 52 }],
-    legend: { markers: { width: 2, dash: (_, i) => border(all[i - 1]?.[4]) } },
-    series: [{ label: "t (s)", value: read }, ...all.map(([, name, shade, , dash]) => ({ label: name, stroke: shades[shade], width: 1.6, dash, points: { show: false }, value: read }))],
+    axes: [{ ...axis, ...title, size: 22, space: 62 }, { ...axis, size: 42, space: 22 }],
+    series: [{}, ...all.map(([, , shade, , dash]) => ({ stroke: shades[shade], width: 1.6, dash, points: { show: false } }))],
   };
 }
 
 const read = (_, value) => (value === null || value === undefined ? "–" : short(value, 4));
+
+// The values at a place of a canvas with a frame.
+function beside(event, canvas, axes) {
+  const box = canvas.getBoundingClientRect(), at = valuesAt(canvas, event.clientX - box.left, event.clientY - box.top);
+  if (!at) return tip.hide();
+  const [[head, text], row] = [0, 1].map((i) => tip.pair(axes[i].label, short(at[i], 4)));
+  tip.show(event, { head: `${head} ${text}`, rows: [row] });
+}
 
 function ring(drawn, x, y, radius) {
   drawn.beginPath();
@@ -127,7 +173,9 @@ function ring(drawn, x, y, radius) {
 }
 
 function drawPortrait(canvas, { history, portrait: points }, scales) {
-  const made = context(canvas), { drawn } = made, area = room(made), shades = colours(), [xs, ys] = portrait(history), [x, y] = model.portrait, stop = surface(history);
+  const made = context(canvas);
+  if (!made.width) return;
+  const { drawn } = made, area = room(made), shades = colours(), [xs, ys] = portrait(history), [x, y] = model.portrait, stop = surface(history);
   const place = frame(drawn, area, { range: scales.x, label: x.label }, { range: scales.y, label: y.label });
   within(drawn, area, () => {
     if (stop !== null) {
@@ -147,7 +195,9 @@ function drawPortrait(canvas, { history, portrait: points }, scales) {
 }
 
 function drawSection(canvas, it, scales) {
-  const made = context(canvas), { drawn } = made, area = room(made), [xs, ys] = section(it), [x, y] = model.section;
+  const made = context(canvas);
+  if (!made.width) return;
+  const { drawn } = made, area = room(made), [xs, ys] = section(it), [x, y] = model.section;
   const place = frame(drawn, area, { range: scales.sx, label: x.label }, { range: scales.sy, label: y.label });
   drawn.fillStyle = colours().second;
   xs.forEach((it, i) => { ring(drawn, place.x(it), place.y(ys[i]), xs.length > 20 ? 1.6 : 3.2); drawn.fill(); });

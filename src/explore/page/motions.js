@@ -1,6 +1,7 @@
 // The motion of the chosen case and those that are pinned, beside each other.
 
 import * as ask from "./ask.js";
+import * as busy from "./busy.js";
 import { by, say, said } from "./element.js";
 import { handOver } from "./keep.js";
 import { common } from "./motion.js";
@@ -24,7 +25,7 @@ export class Motions {
   /** The coordinates of a case in words. */
   words(coordinates) {
     const starts = coordinates.from ? [] : this.file.model.starts;
-    const shown = [...this.file.axes, ...this.file.constants, ...starts];
+    const shown = [...this.file.axes, ...(this.file.draws || []), ...this.file.constants, ...starts];
     const isNew = (it, i) => shown.findIndex((other) => other.name === it.name) === i;
     const words = shown.filter((it, i) => isNew(it, i) && it.name in coordinates).map((it) => said(it.label, coordinates[it.name] * it.factor));
     const more = [coordinates.sweep && `sweep ${coordinates.sweep}`, coordinates.from && "from the motion of the line"];
@@ -41,12 +42,14 @@ export class Motions {
   async show(coordinates) {
     this.asking?.abort();
     const { signal } = this.asking = new AbortController();
+    const task = busy.begin("motion", "Motion");
     let motion;
     try {
       motion = await this.motion(coordinates, signal);
     } catch (it) {
       motion = { key: written(coordinates), coordinates, failure: it.message };
     }
+    task.end(!signal.aborted);
     if (signal.aborted) return false;
     this.current = motion;
     this.forget();
@@ -98,7 +101,7 @@ export class Motions {
   }
 
   place(panels) {
-    document.querySelector("main").classList.toggle("compare", this.pins.length > 0);
+    by("motion-section").classList.toggle("compare", this.pins.length > 0);
     by("motions").dataset.count = panels.length;
     const now = [...by("motions").children];
     if (now.length !== panels.length || now.some((it, i) => it !== panels[i])) by("motions").replaceChildren(...panels);

@@ -18,9 +18,8 @@ function plane() {
 /** Shows the trade-off of the cells of the map, if it is wanted. */
 export async function showTradeOff(signal) {
   const name = price();
-  for (const state of ["aria-pressed", "aria-expanded"]) by("trade-off-button").setAttribute(state, String(!!name));
-  by("trade-off-section").hidden = !name;
   const asked = { ...page.choices.asked(), of: name };
+  if (!name) page.tradeOff.none("");
   if (asked.sweep === "difference") page.tradeOff.none("The trade-off is that of one sweep: choose upward or downward.");
   else if (name) await page.tradeOff.show(asked, page.map, plane(), signal);
   select();
@@ -52,6 +51,7 @@ export async function showCurves(signal) {
   const isOn = view.text("curves") === "1" && page.file.has_curves;
   by("curves-switch").checked = isOn;
   by("curves-place").hidden = !isOn;
+  by("branches-empty").hidden = isOn || by("branches-place").childElementCount > 0;
   page.curves = null;
   if (isOn) {
     const { x, y } = page.choices.chosen();

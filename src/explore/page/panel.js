@@ -1,10 +1,11 @@
 // The panel of a motion: what it is, its charts, its numbers, and what can be done with it.
 
-import { button, element, sentence } from "./element.js";
+import { button, element, marked, sentence } from "./element.js";
 import { saveButtons } from "./keep.js";
 import { mainOutput, model } from "./model.js";
 import { Charts } from "./motion.js";
 import { keyNumbers, tables } from "./numbers.js";
+import { strip } from "./strip.js";
 import { asked } from "./view.js";
 
 /** A motion in a few words. */
@@ -16,18 +17,21 @@ function about(it, { from }) {
   const start = `It starts ${from ? "where the line settled at this value" : it.start}; ${it.exact ? `this is case ${it.nearest} of the file` : `it is no case of the file, the nearest is case ${it.nearest}`}.`;
   const why = it.simulate.orbit.failure || it.simulate.failure || "the motion could not be followed";
   const shown = it.history ? `${it.history.cycles} cycles are shown.` : `No history: ${why}.`;
-  return [summary(it), `${start} ${shown}`, ...it.remarks].map((words) => element("p", { textContent: sentence(words) }));
+  const note = element("p", { className: "note", textContent: `${start} ${shown}` });
+  return [note, ...it.remarks.map((words) => element("p", { className: "remark", textContent: sentence(words) }))];
 }
 
 /** A panel with its name and the letter of its ids; `actions` are its first buttons. Motions follow each other in it. */
 export class Panel {
   constructor(name, id) {
     Object.assign(this, { name, motion: null });
+    this.letter = element("span", { className: "letter", textContent: name });
     this.heading = element("h3");
+    this.strip = element("div");
     this.about = element("div");
     this.actions = element("span", { className: "saving" });
     const coordinates = () => asked(this.motion.coordinates);
-    this.saving = element("span", { className: "buttons" },
+    this.saving = element("span", { className: "buttons quiet" },
       saveButtons(`${id}-history`, "histories", () => ({ kind: "history", ...coordinates() })),
       saveButtons(`${id}-portrait`, "portrait", () => ({ kind: "phase-portrait", ...coordinates() })));
     const place = element("div", { className: "charts" });
@@ -35,15 +39,15 @@ export class Panel {
     this.note = element("p", { className: "note", textContent: `Histories begin at the section, after the transient. Phase portrait: ${model.surface ? "the dashed line is the surface of impacts, " : ""}rings are stroboscopic points.` });
     this.numbers = element("div");
     this.tables = element("div");
-    const buttons = element("div", { className: "buttons" }, this.actions, this.saving);
-    this.element = element("article", { className: "motion" }, this.heading, this.about, buttons, place, this.note, this.numbers, this.tables);
+    const head = element("div", { className: "motion-head" }, this.letter, this.heading, this.actions);
+    this.element = element("article", { className: "motion" }, head, this.strip, place, this.about, this.note, this.saving, this.numbers, this.tables);
   }
 
   /** Shows a motion, called by `words`; the panel must be on the page. */
   show(motion, words, scales) {
     const isOther = motion !== this.motion;
     this.motion = motion;
-    this.heading.textContent = `${this.name}: ${words}`;
+    this.heading.replaceChildren(...marked(words));
     if (isOther) this.tell(motion);
     const { it } = motion, hasHistory = !!it?.history;
     this.note.hidden = !hasHistory;
@@ -55,6 +59,7 @@ export class Panel {
   tell({ it, failure, coordinates }) {
     const open = [...this.tables.children].map((details) => details.open);
     const failed = () => [element("p", { className: "failure", textContent: `The motion could not be computed: ${failure}` })];
+    this.strip.replaceChildren(...(it ? [strip(it)] : []));
     this.about.replaceChildren(...(it ? about(it, coordinates) : failed()));
     this.numbers.replaceChildren(...(it ? [keyNumbers([{ it, name: this.name }])] : []));
     this.tables.replaceChildren(...(it ? tables(it, open) : []));

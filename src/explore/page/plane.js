@@ -10,6 +10,8 @@ const KINDS = { l: "line", r: "rectangle" };
 const STILL = 4;
 /** The least part of an axis that is seen. */
 const LEAST = 1e-4;
+/** Pixels from the end of a line at which a pointer takes hold of it. */
+const GRIP = 11;
 /** Significant digits of a point between the cases. */
 const DIGITS = 12;
 
@@ -95,18 +97,34 @@ export class Plane {
     if (!shares) return;
     this.canvas.setPointerCapture(event.pointerId);
     this.held = { from: [event.clientX, event.clientY], seen: this.seen(), shares, hasMoved: false };
-    const from = this.mode === "line" ? this.snapped(shares) : shares;
+    const from = this.mode === "line" ? this.snapped(shares) : shares, grip = this.grip(event);
     if (this.mode !== "move") this.gesture = { kind: this.mode, from, to: from };
+    else if (grip !== null) this.gesture = { kind: "line", from: this.ends()[1 - grip], to: this.ends()[grip], grip };
+  }
+
+  /** The ends of a line over the plane, in shares, which a pointer can take hold of. */
+  ends() { return []; }
+
+  // The end of the line under the pointer; none elsewhere.
+  grip(event) {
+    if (!this.on.drag || this.mode !== "move") return null;
+    const box = this.canvas.getBoundingClientRect(), area = this.area();
+    const away = this.ends().map((it) => this.place(it, area)).map(([x, y]) => Math.hypot(x - event.clientX + box.left, y - event.clientY + box.top));
+    const nearest = away.indexOf(Math.min(...away));
+    return away[nearest] <= GRIP ? nearest : null;
   }
 
   move(event) {
     if (!this.data) return;
-    if (!this.held) return this.hovered(this.pointed(event));
+    if (!this.held) {
+      this.canvas.style.cursor = this.grip(event) === null ? "" : "move";
+      return this.hovered(this.pointed(event), event);
+    }
     const [dx, dy] = [event.clientX - this.held.from[0], event.clientY - this.held.from[1]];
     if (Math.hypot(dx, dy) > STILL) this.held.hasMoved = true;
     if (this.gesture) {
       this.extend(this.pointed(event, true), event.shiftKey);
-      this.hovered(this.gesture.to);
+      this.hovered(this.gesture.to, event);
     }
     else if (this.held.hasMoved && this.window) {
       const area = this.area(), [x, y] = this.held.seen;
@@ -119,13 +137,15 @@ export class Plane {
     const { held } = this;
     this.held = null;
     if (!held) return;
+    // An end of a line that was not moved is a case like others.
+    if (this.gesture?.grip !== undefined && !held.hasMoved) this.gesture = null;
     if (this.gesture) { if (held.hasMoved) this.finish(); else this.giveUp(); }
     else if (!held.hasMoved) this.choose(held.shares, this.isExact || event.altKey);
   }
 
   leave() { if (!this.held) this.hovered(null); }
 
-  hovered(shares) { this.on.hover?.(shares && this.at(shares), false); }
+  hovered(shares, event = null) { this.on.hover?.(shares && this.at(shares), false, event); }
 
   // The other end of the line or the rectangle that is drawn.
   extend(to, isStraight) {
@@ -135,11 +155,14 @@ export class Plane {
   }
 
   finish() {
-    const { kind, from, to, byKeys } = this.gesture, isCell = kind === "line" && !this.isExact;
-    const [begins, ends] = [from, to].map((it) => this.at(it)[isCell ? "cell" : "point"]);
+    const { kind, from, to, byKeys, grip } = this.gesture, isCell = kind === "line" && !this.isExact;
+    // The end that was not moved is as it was.
+    const held = grip === undefined ? null : this.fixed(1 - grip), end = (it) => this.at(it)[isCell ? "cell" : "point"];
+    const [begins, ends] = grip === 0 ? [end(to), held] : [held ?? end(from), end(to)];
     this.gesture = null;
     if (byKeys && kind === "line") this.mark = to;
     this.setMode("move");
+    this.canvas.style.cursor = "";
     this.on.drag(kind, begins, ends);
   }
 
@@ -250,8 +273,8 @@ export class Plane {
   }
 
   draw() {
-    const { drawn, ratio } = context(this.canvas);
-    if (!this.data) return;
+    const { drawn, ratio, width } = context(this.canvas);
+    if (!this.data || !width) return;
     const area = this.area(), [across, up] = this.seen(), { x, y } = this.data;
     within(drawn, area, () => {
       this.cells.paint(drawn, area, [across, up], ratio);

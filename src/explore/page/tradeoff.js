@@ -1,6 +1,7 @@
 // The trade-off beside the map: speed against what it costs, with the fronts, brushed both ways.
 
 import * as ask from "./ask.js";
+import * as tip from "./tip.js";
 import { Cloud } from "./cloud.js";
 import { button, element, folded, labelled, parted, say, said, select } from "./element.js";
 import { isReversed } from "./form.js";
@@ -35,7 +36,8 @@ export class TradeOff {
     const help = element("p", { id: "trade-off-help", className: "note" });
     help.textContent = "Drag a rectangle to mark its cases in the map; click a point for its motion. Left and right step along the fronts, Enter computes there.";
     this.saving = element("div", { className: "buttons" }, saveButtons("trade-off", "trade-off", () => this.request));
-    place.append(labelled("Price", this.price), this.canvas, this.told, this.legend, this.note, this.brushed, this.clear, help, this.numbers(), this.fronts, this.saving);
+    const drop = button("Take off the map", () => on.drop(), { id: "trade-off-drop" });
+    place.append(element("div", { className: "buttons" }, labelled("Price", this.price), this.clear, drop), this.canvas, this.told, this.legend, this.note, this.brushed, help, this.numbers(), this.fronts, this.saving);
     this.listen();
   }
 
@@ -202,7 +204,7 @@ export class TradeOff {
   move(event) {
     if (!this.data) return;
     const at = this.pointed(event);
-    if (this.drag) { this.drag.to = at; this.draw(); } else this.hover(this.cloud?.near(...at) ?? null, false);
+    if (this.drag) { this.drag.to = at; this.draw(); } else this.hover(this.cloud?.near(...at) ?? null, false, event);
   }
 
   release() {
@@ -222,7 +224,8 @@ export class TradeOff {
 
   leave() { if (this.data && !this.drag) this.hover(null, false); }
 
-  hover(cell, isKey) {
+  hover(cell, isKey, event = null) {
+    if (cell !== null && event) this.beside(cell, event); else tip.hide();
     const words = cell === null ? "\u00a0" : this.words(cell);
     this.told.textContent = words;
     if (isKey && cell !== null) say(words);
@@ -230,6 +233,14 @@ export class TradeOff {
     this.spot = cell;
     this.on.spot(cell);
     this.draw();
+  }
+
+  // Values beside the pointer.
+  beside(cell, event) {
+    const { price, speed, prices, speeds } = this.data, { x, y } = this.map.data, at = this.coordinates(cell);
+    const output = ({ label }, value) => tip.pair(label, result(value, parted(label)[1]));
+    const places = [x, y].map((it, i) => tip.pair(it.label, short(at[i] * it.factor)));
+    tip.show(event, { head: output(speed, speeds[cell])[1], rows: [output(price, prices[cell]), ...places] });
   }
 
   words(cell) {
@@ -251,7 +262,7 @@ export class TradeOff {
 
   draw() {
     const made = context(this.canvas), { drawn, ratio } = made;
-    if (!this.data) return;
+    if (!this.data || !made.width) return;
     const area = room(made), { prices, speeds } = this.data, shades = colours();
     const place = frame(drawn, area, this.x, this.y);
     within(drawn, area, () => {

@@ -3,6 +3,12 @@
 const read = () => new URLSearchParams(location.hash.slice(1));
 let held = read();
 const listeners = [];
+// A state of none is that of an address written by hand.
+if (!history.state) history.replaceState({ steps: 0 }, "");
+/** How many steps lie behind what is shown, and how many there are with those that were undone. */
+const steps = { now: history.state.steps, all: history.state.steps };
+/** Steps of one kind that follow each other so soon are one [ms]. */
+const SOON = 1000;
 
 /** The text of a key; none where it is not set. */
 export const text = (key) => held.get(key);
@@ -25,9 +31,10 @@ function put(pairs, write) {
   }
   const keys = Object.keys(pairs).filter((key) => before.get(key) !== held.get(key));
   if (!keys.length) return keys;
+  if (write === "pushState") steps.all = ++steps.now;
   // Commas and colons stay readable.
   const text = String(held).replace(/%2C/g, ",").replace(/%3A/g, ":").replace(/%7E/g, "~").replace(/%3B/g, ";");
-  history[write](null, "", `#${text}`);
+  history[write]({ steps: steps.now }, "", `#${text}`);
   return keys;
 }
 
@@ -39,6 +46,25 @@ export const set = (pairs) => tell(put(pairs, "replaceState"));
 /** The same as a step that the Back of the browser undoes. */
 export const step = (pairs) => tell(put(pairs, "pushState"));
 
+let settled = { keys: "", at: -Infinity };
+/** The same for what changes many times in a row, as while a map is moved: those are one step. */
+export function settle(pairs) {
+  const keys = Object.keys(pairs).join(), isSame = settled.keys === keys && performance.now() - settled.at < SOON;
+  settled = { keys, at: performance.now() };
+  (isSame ? set : step)(pairs);
+}
+
+/** Undoes a step, or does it again (1), as far as there is one. */
+export function go(by) {
+  const to = steps.now + by;
+  if (to < 0 || to > steps.all) return;
+  settled.at = -Infinity;
+  history.go(by);
+}
+
+/** Whether there are steps to undo and to do again. */
+export const undoable = () => [steps.now > 0, steps.now < steps.all];
+
 /** Sets keys to what is shown already, and tells nobody. */
 export const restore = (pairs) => { put(pairs, "replaceState"); };
 
@@ -49,6 +75,10 @@ export const changed = (listener) => listeners.push(listener);
 window.addEventListener("hashchange", () => {
   const before = held;
   held = read();
+  // An address that was written by hand is a step.
+  if (!history.state) { steps.all = ++steps.now; history.replaceState({ steps: steps.now }, ""); }
+  steps.now = history.state.steps;
+  steps.all = Math.max(steps.all, steps.now);
   const keys = [...new Set([...before.keys(), ...held.keys()])].filter((key) => before.get(key) !== held.get(key));
   tell(keys);
 });

@@ -1,0 +1,54 @@
+// The commands of the figures of the map and of the trade-off, and their saving.
+
+import * as colouring from "./colouring.js";
+import { by } from "./element.js";
+import { handOver, quoted, save } from "./keep.js";
+import { page, price } from "./shown.js";
+
+// A number with as many digits as tell the ends of a range apart to a thousandth, with its unit.
+function end(value, [low, high], unit) {
+  const digits = 4 + Math.ceil(Math.log10(Math.max(Math.abs(low), Math.abs(high)) / (high - low)));
+  return `${Number(value.toPrecision(Math.max(digits, 4)))}${unit ? ` ${unit}` : ""}`;
+}
+
+const option = (name, ends, unit) => ` --limits ${quoted(`${name}=${ends.map((it) => end(it, ends, unit)).join(",")}`)}`;
+
+// The ends of the axes as they are seen, as options of the command; none where all is seen.
+function limits() {
+  const { map, file } = page;
+  if (!map.window) return "";
+  return [map.data.x, map.data.y].map((axis, i) => {
+    const unit = file.axes.find((it) => it.name === axis.name)?.unit;
+    return option(axis.name, map.window[i].map((share) => map.value(axis, share)), unit);
+  }).join("");
+}
+
+// How the values are coloured, where that is not as usual.
+function colours(of) {
+  const { map, scale, ends } = colouring.asked(), { unit } = page.file.outputs.find((it) => it.name === of);
+  const parts = [map && ` --colour-map ${of}=${map}`, scale && ` --scale ${of}=${scale}`, ends && option(of, ends, unit)];
+  return page.map.data.key.kinds ? "" : parts.filter((it) => it).join("");
+}
+
+/** Names what is saved: figures that are saved here show the whole map. */
+export function nameSaving() {
+  for (const format of ["pdf", "svg"]) {
+    const it = by(`${format}-button`), words = `Save ${page.map.window ? "whole " : ""}${it.dataset.words}`;
+    Object.assign(it, { ariaLabel: words, title: words });
+  }
+}
+
+/** Saves the map as it is asked for. */
+export function saveMap(format, pressed) {
+  const curves = page.curves ? { curves: 1 } : {};
+  return save({ kind: "map", ...page.choices.asked(), ...curves, ...colouring.saved(page.file) }, format, pressed);
+}
+
+/** Hands the commands of the map and of the trade-off over. */
+export function handMaps() {
+  const { file, choices } = page, { of, x, y } = choices.chosen(), { sweep } = choices.sweep();
+  const places = Object.entries(choices.held()).map(([name, value]) => ` --at ${name}=${value}`).join("") + (sweep ? ` --sweep ${sweep}` : "");
+  const figure = (kind, more) => `capsulemap figure ${quoted(file.file)} --kind ${kind} ${more}${places}`;
+  handOver("map", "Figure of the map", figure("map", `--of ${of} --x ${x} --y ${y}${page.curves ? " --curves" : ""}${colours(of)}${limits()}`));
+  handOver("trade-off", "Figure of the trade-off", price() && sweep !== "difference" && figure("trade-off", `--of ${price()}`));
+}
