@@ -282,19 +282,23 @@ fn measured(path: &Path, archive: &Archive) -> Result<Measured, Failure> {
         let dimension = dimension(archive, name).ok()?;
         Some(Column { name, dimension, presence: Presence::Optional })
     });
-    let mut known: Vec<Column> = known.collect();
-    for column in known.clone() {
+    let known: Vec<Column> = known.collect();
+    let mut errors = Vec::new();
+    for column in &known {
         let name = catalogue::lasting(format!("{}_error", column.name));
         if known.iter().all(|it| it.name != name) {
-            known.push(Column { name, ..column });
+            errors.push(Column { name, ..*column });
         }
     }
-    let recording = files::recording(path, &known, 1)?;
+    let recording = files::recording(path, &[&known[..], &errors[..]].concat(), 1)?;
     let mut columns = Vec::new();
     for Column { name, .. } in known {
         let values = recording.whole(name).map_err(|why| Failure::of_file(path, why))?;
         columns.extend(values.map(|it| (name.to_owned(), it.to_vec())));
     }
+    // A point may have no error.
+    let errors = errors.iter().map(|it| it.name);
+    columns.extend(errors.filter_map(|name| Some((name.to_owned(), recording.filled(name)?))));
     Ok(Measured { columns })
 }
 

@@ -181,6 +181,14 @@ impl Recording {
         self.rows
     }
 
+    /// The values of a column, one in each row, if the recording has it; NaN where a row has none [SI].
+    pub fn filled(&self, name: &str) -> Option<Vec<f64>> {
+        let Sensed { rows, values } = self.sensed(name)?;
+        let mut filled = vec![f64::NAN; self.rows];
+        rows.iter().zip(values).for_each(|(row, value)| filled[*row] = *value);
+        Some(filled)
+    }
+
     /// The times between the rows, by the column of times `t`.
     ///
     /// # Panics

@@ -76,7 +76,7 @@ fn measured_points_stand_over_a_diagram_in_its_units() {
     work.put(
         "rig.csv",
         "omega (Hz),omega_error (Hz),progression_speed (m/s),progression_speed_error (mm/s)\n\
-         18,0.5,0.002,30\n20,0,-0.004,4\n",
+         18,0.5,0.002,30\n20,,-0.004,4\n",
     );
     let ran =
         work.run(&[&COMMON[..], &["--points", "rig.csv", "--of", "progression_speed"]].concat());
@@ -112,7 +112,7 @@ fn measured_points_that_do_not_go_with_a_figure_are_refused() {
         (
             "omega (Hz),progression_speed (mm/s)\n18,\n",
             &[],
-            "line 2: progression_speed: has no value",
+            "progression_speed: 1 of 1 rows have no value, the first in line 2",
         ),
         ("omega (Hz),progression_speed (mm/s)\n", &[], "0 rows of numbers; at least 1"),
         (

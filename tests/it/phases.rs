@@ -9,7 +9,6 @@ use capsulemap::capsule::{
 };
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::Instructions;
-use capsulemap::motion::Orbit;
 use capsulemap::orbit::{HistorySpan, Outcome, Protocol};
 use capsulemap::run::{self, Machine, Record};
 use capsulemap::study::{Coordinate, Study};
@@ -198,11 +197,13 @@ fn starts_between_sections_settle_alike_alone_and_side_by_side() {
     // One that fails before its first section, and one on it.
     cases[7].start = State { r: 1e300, ..cases[7].start.capsule() }.into();
     cases[8].start_phase = cases[8].section_phase;
-    let alone: Vec<Orbit> = cases.iter().map(|case| settle_case(case, &protocol)).collect();
+    // As texts, in which what is unknown in both is equal.
+    let alone: Vec<String> =
+        cases.iter().map(|case| format!("{:?}", settle_case(case, &protocol))).collect();
     for instructions in [Instructions::Scalar, Instructions::widest()] {
         let among = draws::settled(&cases, &protocol, instructions);
         for (i, (alone, among)) in alone.iter().zip(&among).enumerate() {
-            assert_eq!(alone, among, "case {i}");
+            assert_eq!(*alone, format!("{among:?}"), "case {i}");
         }
     }
     let failed = settle_case(&cases[7], &protocol);
