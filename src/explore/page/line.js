@@ -13,6 +13,8 @@ import { range, short } from "./ticks.js";
 
 /** Values along a line. */
 const COUNT = 300;
+/** How often the value that is computed is marked on the map [ms]. */
+const MARKED_EVERY = 250;
 const STARTS = [["inherit", "where the value before it settled"], ["afresh", "from the initial state of the study"]];
 
 const square = (drawn, x, y, r) => drawn.fillRect(x - r, y - r, 2 * r, 2 * r);
@@ -30,7 +32,7 @@ const kind = (outcome) => KINDS[outcome] || { shade: "faint", put: hollow };
 /** The diagram in its place. `on` is told of `start`, of a `choose`n share of the line and of a `spot` under the pointer. */
 export class Line {
   constructor(place, on) {
-    Object.assign(this, { on, points: [], running: null, asked: null, spot: null, study: null });
+    Object.assign(this, { on, points: [], marked: 0, running: null, asked: null, spot: null, study: null });
     this.canvas = element("canvas", { id: "line", tabIndex: 0, role: "application", ariaLabel: "Bifurcation diagram along the line" });
     this.canvas.setAttribute("aria-roledescription", "diagram");
     this.canvas.setAttribute("aria-describedby", "line-help line-at");
@@ -118,8 +120,10 @@ export class Line {
     requestAnimationFrame(() => {
       this.isWaiting = false;
       this.draw();
-      // What is computed now is marked on the map.
-      if (this.spot === null && this.line) this.on.spot(this.points.length < COUNT && this.points.length ? this.place(this.points.at(-1).share) : null);
+      // What is computed now is marked on the map, whose drawing takes time from the computation.
+      if (this.spot !== null || !this.line || performance.now() - this.marked < MARKED_EVERY && this.points.length < COUNT) return;
+      this.marked = performance.now();
+      this.on.spot(this.points.length < COUNT && this.points.length ? this.place(this.points.at(-1).share) : null);
     });
   }
 
