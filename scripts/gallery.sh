@@ -71,6 +71,8 @@ fi
     kind map "An output, the period or the outcome over two axes; several panels over the values of a third and a fourth." \
         plane speed plane/speed.png
     kind basin "Which attractor each start leads to." three-ways basin three-ways/basin.png
+    kind "basin, with its boundary as curves" "The stable manifolds of the saddle between two basins, and its unstable ones." \
+        basin basin basin/basin.png
     kind settling "For how many cycles each start is followed until its attractor is decided." fractal settling fractal/settling.png
     kind shares "Shares of the starts that lead to each attractor along a parameter, and the integrity factor of each basin." \
         erosion shares erosion/shares.png
@@ -79,6 +81,9 @@ fi
     kind phase-portrait "One coordinate over another, for one case or several." fig6 fig6-phase-portrait paper/fig6-phase-portrait.png
     kind spectrum "Amplitudes of a history over frequency." fig6 fig6-spectrum paper/fig6-spectrum.png
     kind curves "Special points of branches as curves in two parameters." regions curves regions/curves.png
+    kind "map, with what bounds its regions" "Where motions begin, end or change, as curves that are followed from neighbours which differ." \
+        boundaries regions boundaries/regions.png
+    kind "bifurcation, along a path" "Outputs while two parameters rise together." path diagram path/diagram.png
     kind trade-off "Speed against what it costs, with the Pareto fronts and the optima of both directions." \
         best best-trade-off paper/best-trade-off.png
     kind trade-off-maps "The fastest motion of each cell over two axes, what it costs, and where the fronts lie." \

@@ -60,7 +60,8 @@ fn a_long_legend_stands_below_its_panels() {
         let svg = drawn(&dataset, &request).0;
         let height = |words: &str| {
             let place = labels(&svg).iter().position(|it| it.contains(words));
-            let text = svg.split("<text ").nth(1 + place.expect("a label"));
+            let place = place.unwrap_or_else(|| panic!("{words}: {:?}", labels(&svg)));
+            let text = svg.split("<text ").nth(1 + place);
             number(&format!(" {}", text.expect("a text")), "y")
         };
         height("0.5") > height("Frequency")

@@ -327,7 +327,7 @@ fn figures_of_ones_own_come_from_the_file_alone() {
     figure(&["--kind", "map", "--x", "omga"]).refused(&["`omga`", "did you mean `omega`?"]);
     figure(&["--kind", "map", "--at", "omga=3", "--at", "p_d=3 mm", "--at", "p_d", "--at", "k2=1"])
         .refused(&[
-            "--at: unknown axis of these results \"omga\"; did you mean \"omega\"? (allowed: p_d, omega)",
+            "--at: unknown axis of these results \"omga\"; did you mean \"omega\"? (allowed: omega, p_d)",
             "--at p_d: \"3 mm\" is a length; expected a force",
             "--at p_d: expected AXIS=VALUE",
             "--at: unknown axis of these results \"k2\"",
