@@ -72,7 +72,7 @@ fi
         plane speed plane/speed.png
     kind basin "Which attractor each start leads to." three-ways basin three-ways/basin.png
     kind "basin, with its boundary as curves" "The stable manifolds of the saddle between two basins, and its unstable ones." \
-        basin basin basin/basin.png
+        manifolds manifolds manifolds/manifolds.png
     kind settling "For how many cycles each start is followed until its attractor is decided." fractal settling fractal/settling.png
     kind shares "Shares of the starts that lead to each attractor along a parameter, and the integrity factor of each basin." \
         erosion shares erosion/shares.png

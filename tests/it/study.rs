@@ -210,7 +210,7 @@ fn starts_and_the_phase_can_be_axes() {
     );
     assert!((case.start_phase - 1_f64.to_radians()).abs() < 1e-16 && case.section_phase == 0.0);
     assert!(
-        said(&(text + "[start]\ninherit = \"start_phase\""))[0].contains("must be a parameter")
+        said(&(text + "[start]\ninherit = \"start_phase\""))[0].contains("must be of parameters")
     );
 }
 
