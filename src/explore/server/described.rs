@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::explored::Explored;
+use super::map::SETTINGS;
 use crate::description::{Chart, Description, Output};
 use crate::figure::shown_quantity;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT, section};
@@ -21,12 +22,14 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "file": file.display().to_string(),
         "cases": study.cases(),
         "axes": study.axes().iter().map(|it| axis_json(explored, it)).collect::<Vec<_>>(),
+        "draws": explored.ranges().iter().map(|it| shown_json(explored, it.coordinate.name())).collect::<Vec<_>>(),
         "directions": directions.collect::<Vec<_>>(),
         "outputs": outputs_json(explored),
         "constants": constants_json(explored),
         "has_curves": has_branches(frame),
         "model": model_json(explored),
         "running": running,
+        "settings": SETTINGS.map(|it| it.0),
         "inherits": study.inherit().is_some(),
         "program": provenance::program(&frame.attributes),
         "study": frame.texts.get(STUDY_TEXT).map_or("", String::as_str),
@@ -64,7 +67,7 @@ fn constants_json(explored: &Explored) -> Vec<Value> {
 }
 
 /// How figures show the quantity of this name.
-fn shown_json(explored: &Explored, name: &str) -> Value {
+pub(super) fn shown_json(explored: &Explored, name: &str) -> Value {
     let it = shown_quantity(name, explored.archive.frame());
     json!({ "name": name, "label": it.label, "unit": it.unit, "factor": it.factor })
 }

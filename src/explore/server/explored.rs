@@ -12,7 +12,7 @@ use crate::motion::Case;
 use crate::orbit::Protocol;
 use crate::store::{Archive, Dataset};
 use crate::study::axis::{is_within, set};
-use crate::study::{Axis, Coordinate, Direction, Drawing, Study};
+use crate::study::{Axis, CaseSet, Coordinate, Direction, Drawing, Range, Study};
 
 /// Which part of the results is wanted: the names of variables, and the places along axes at which cases are held.
 type Part = (BTreeSet<String>, BTreeMap<String, usize>);
@@ -124,6 +124,14 @@ impl Explored {
     /// Whether the file has an output of its cases.
     pub fn has(&self, output: Output) -> bool {
         self.archive.unit(output.name()).is_some()
+    }
+
+    /// What the study draws; nothing where its cases lie on a grid.
+    pub fn ranges(&self) -> &[Range] {
+        match &self.study.case_set {
+            CaseSet::Draws(draws) => &draws.ranges,
+            CaseSet::Grid(_) => &[],
+        }
     }
 
     /// How cases are integrated and judged here: with the tolerance and the budget of the study, which are what the command of

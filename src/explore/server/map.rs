@@ -10,12 +10,20 @@ use super::asked::Asked;
 use super::explored::Explored;
 use crate::figure::{
     ColouredMap, MapAxis, MapColours, MapLine, MapPoint, TradeOffAxis, coloured_map, over_map,
-    over_map_variables, trade_off_cells,
+    over_map_variables, shown_quantity, trade_off_cells,
 };
-use crate::study::{Axis, Drawing, DrawingKind, Sweep, free_name};
+use crate::quantity::Dimension;
+use crate::study::appearance::SettingText;
+use crate::study::{
+    Axis, Drawing, DrawingKind, QuantitySettings, Setting, Settings, Sweep, free_name,
+};
 
 /// The parameters of a request for a map or for its figure, beside the axes.
-const KNOWN: [&str; 7] = ["of", "x", "y", "sweep", "curves", "kind", "format"];
+const KNOWN: [&str; 10] =
+    ["of", "x", "y", "sweep", "curves", "kind", "format", "colour-map", "scale", "limits"];
+/// What may be set of the colours of a map.
+pub const SETTINGS: [(&str, Setting); 3] =
+    [("colour-map", Setting::ColourMap), ("scale", Setting::Scale), ("limits", Setting::Limits)];
 
 /// The figure that a request asks for; the axes that are not drawn are held where it says.
 pub fn drawing(explored: &Explored, asked: &Asked, kind: DrawingKind) -> Result<Drawing, Refusal> {
@@ -42,7 +50,35 @@ pub fn drawing(explored: &Explored, asked: &Asked, kind: DrawingKind) -> Result<
     let of: Vec<String> = of.into_iter().collect();
     let name = free_name(kind, &of, &explored.study.drawings);
     let curves = asked.text("curves").is_some();
-    Ok(Drawing { x, y, of, at, sweep, curves, ..Drawing::new(name, kind) })
+    let settings = settings(explored, asked, &of)?;
+    Ok(Drawing { x, y, of, at, sweep, curves, settings, ..Drawing::new(name, kind) })
+}
+
+/// A number as requests have it, in whatever unit is meant.
+fn read(text: &str, _: Dimension) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| "a number is expected".to_owned())
+}
+
+/// What is set of the colours of a map of this output, or of the usual one: the ends of its values are in the unit shown.
+fn settings(explored: &Explored, asked: &Asked, of: &[String]) -> Result<Settings, Refusal> {
+    let usual = explored.model().main_output().name();
+    let name = of.first().map_or(usual, String::as_str);
+    let factor = shown_quantity(name, explored.archive.frame()).factor;
+    let mut set = QuantitySettings::default();
+    for (key, setting) in SETTINGS {
+        let Some(text) = asked.text(key) else { continue };
+        let unfit = |why: String| Refusal::unfit(format!("{key}: {why}"));
+        let mut parts = vec![text.to_owned()];
+        if setting == Setting::Limits {
+            let ends = text.split(',').map(|it| read(it, Dimension::Number));
+            let ends: Vec<f64> = ends.collect::<Result<_, String>>().map_err(unfit)?;
+            parts = ends.into_iter().map(|it| (it / factor).to_string()).collect();
+        }
+        let dimension = Dimension::Number;
+        set.put(setting, SettingText { parts: &parts, dimension, read }).map_err(unfit)?;
+    }
+    let is_set = set != QuantitySettings::default();
+    Ok(is_set.then(|| (name.to_owned(), set)).into_iter().collect())
 }
 
 /// The map as one binary answer: red, green, blue and opacity of each cell, and its value.

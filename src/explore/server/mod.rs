@@ -8,6 +8,7 @@ mod basin;
 mod branches;
 mod computations;
 mod described;
+mod draws;
 mod explored;
 mod followed;
 mod line;
@@ -152,6 +153,7 @@ fn router(shared: Shared) -> Router {
         .route("/api/curves", of_file(readings, map::curves))
         .route("/api/trade-off", of_file(readings, map::trade_off))
         .route("/api/motion", of_file(motions, |it, asked| Ok(json(&motion::motion(it, asked)?))))
+        .route("/api/draws", of_file(readings, |it, asked| Ok(json(&draws::draws(it, asked)?))))
         .route("/api/figure", get(figure))
         .route("/api/line", get(line))
         .route("/api/branches", get(branches))
