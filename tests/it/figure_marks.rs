@@ -49,7 +49,7 @@ fn colours_span_the_cells_that_are_seen() {
 fn a_long_legend_stands_below_its_panels() {
     let dataset = both_sweeps();
     let is_below = |levels: u32| {
-        let contours = (0..levels).map(|it| 1e-3 * (f64::from(it) + 0.5)).collect();
+        let contours = (0..levels).map(|it| 1e-3 * (f64::from(it) + 1.5)).collect();
         let set = QuantitySettings { contours, ..Default::default() };
         let request = Drawing {
             settings: settings(&[("progression_speed", set)]),
@@ -64,7 +64,7 @@ fn a_long_legend_stands_below_its_panels() {
             let text = svg.split("<text ").nth(1 + place);
             number(&format!(" {}", text.expect("a text")), "y")
         };
-        height("0.5") > height("Frequency")
+        height("1.5 mm/s") > height("Frequency")
     };
     assert!(!is_below(3));
     assert!(is_below(14));
