@@ -25,6 +25,8 @@ const opening = await browser.newContext({ viewport: { width: 1400, height: 1000
 
 async function opened(context, at) {
   const page = await context.newPage();
+  // Machines that do much else beside are slow.
+  page.setDefaultTimeout(120_000);
   page.on("request", (request) => found.requests.push(request.url()));
   page.on("console", (message) => { if (["error", "warning"].includes(message.type())) found.console.push(message.text()); });
   page.on("pageerror", (fault) => found.console.push(String(fault)));
