@@ -16,6 +16,8 @@ pub const MOST_POINTS: usize = 20_000;
 const BEND: f64 = 1e-3;
 /// Parts into which the time from a point to the next is cut at most.
 const MOST_PARTS: f64 = 24.0;
+/// What takes less than this share of a cycle is drawn as it is.
+const SHORTEST: f64 = 1e-6;
 /// By how much of the largest the motion from a point may miss the next.
 const MISSED: f64 = 1e-6;
 
@@ -71,7 +73,9 @@ fn refined(case: &Case, coarse: Stretch, tolerance: f64) -> Stretch {
             start_phase: phase(coarse.times[place]),
             section_phase: phase(coarse.times[place + 1]),
         };
-        let room = fine.times.len() + parts as usize <= MOST_POINTS;
+        // From an event to the next at the same time a motion between equal phases would take a whole cycle.
+        let is_long = coarse.times[place + 1] - coarse.times[place] > SHORTEST * period;
+        let room = is_long && fine.times.len() + parts as usize <= MOST_POINTS;
         let arc =
             (parts > 1 && room).then(|| model_of(&part.parameters).arc(&part, parts, tolerance));
         let arc = arc.and_then(Result::ok).filter(|arc| meets(arc, &chord, &sizes, &part));
