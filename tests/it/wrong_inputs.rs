@@ -97,6 +97,7 @@ const STUDIES: &[(&str, &[&str])] = &[
 #[rustfmt::skip]
 const COMMANDS: &[(&[&str], &[&str])] = &[
     (&["simulate", "--omega", "-3 Hz"], &["omega (frequency of the drive) = -18.84955592153876 rad/s: must be a finite number above zero"]),
+    (&["simulate", "--delta", "1,5 mm"], &["--delta: \"1,5 mm\" has a decimal comma; is \"1.5 mm\" meant?"]),
     (&["simulate", "--omega", "5km"], &["--omega: \"5km\" has the unknown unit \"km\"; expected a frequency in rad/s"]),
     (&["simulate", "--set", "mu=1"], &["--set: unknown parameter \"mu\"; did you mean \"mu_s\"? (allowed: mu_s"]),
     (&["simulate", "--set", "mu_s"], &["--set mu_s: expected NAME=VALUE"]),

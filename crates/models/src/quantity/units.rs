@@ -108,6 +108,9 @@ pub fn parse_in(text: &str, dimension: Dimension, unit_size: f64) -> Result<f64,
     let Ok(value) = number.parse::<f64>() else {
         return Err(format!("\"{text}\" does not begin with a number; expected {expected}"));
     };
+    if let Some(meant) = with_point(text, dimension) {
+        return Err(format!("\"{text}\" has a decimal comma; is \"{meant}\" meant?"));
+    }
     let its_unit = plain(its_unit);
     if let Some((_, size)) = unit(&its_unit, dimension) {
         return Ok(value * (size / unit_size));
@@ -119,6 +122,15 @@ pub fn parse_in(text: &str, dimension: Dimension, unit_size: f64) -> Result<f64,
         None => format!("has the unknown unit \"{its_unit}\""),
     };
     Err(format!("\"{text}\" {found}; expected {expected}"))
+}
+
+/// The quantity with a point where it has a comma within its number, if it is one of `dimension` then.
+fn with_point(text: &str, dimension: Dimension) -> Option<String> {
+    let (before, after) = text.split_once(',')?;
+    let is_within = before.ends_with(|c: char| c.is_ascii_digit())
+        && after.starts_with(|c: char| c.is_ascii_digit());
+    let meant = format!("{before}.{after}");
+    (is_within && parse_quantity(&meant, dimension).is_ok()).then_some(meant)
 }
 
 /// The number at the head of `text`, and the rest.
@@ -148,4 +160,19 @@ fn plain(unit: &str) -> String {
             other => other,
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_decimal_comma_is_told_where_a_point_would_do() {
+        let told = |text: &str| parse_quantity(text, Dimension::Length).expect_err("no quantity");
+        assert_eq!(told("1,5 mm"), "\"1,5 mm\" has a decimal comma; is \"1.5 mm\" meant?");
+        for text in ["1,5 N", "1, 5 mm", "1,000,000 mm", ",5 mm"] {
+            assert!(told(text).contains("expected a length in m"), "{}", told(text));
+        }
+        assert_eq!(parse_quantity("1.5 mm", Dimension::Length), Ok(1.5e-3));
+    }
 }
