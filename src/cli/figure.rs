@@ -65,7 +65,7 @@ pub struct Figure {
     #[arg(long, value_name = "FROM,TO", value_delimiter = ',', requires = "kind")]
     cycles: Vec<f64>,
     /// Measured points over a bifurcation diagram: a CSV file with a column of its axis and one for each measured output, with
-    /// their units, as "omega [rad/s],progression_speed [mm/s]"; a column as progression_speed_error has their errors.
+    /// their units, as "omega [rad/s],progression_speed [mm/s]"; a column as progression_speed_error has their errors, half the length of a bar each.
     #[arg(long, value_name = "FILE.csv", requires = "kind")]
     points: Option<PathBuf>,
     #[command(flatten)]
@@ -297,8 +297,20 @@ fn measured(path: &Path, archive: &Archive) -> Result<Measured, Failure> {
         columns.extend(values.map(|it| (name.to_owned(), it.to_vec())));
     }
     // A point may have no error.
-    let errors = errors.iter().map(|it| it.name);
-    columns.extend(errors.filter_map(|name| Some((name.to_owned(), recording.filled(name)?))));
+    for Column { name, .. } in errors {
+        let Some(values) = recording.filled(name) else { continue };
+        if values.iter().any(|it| *it < 0.0) {
+            return Err(Failure::of_file(path, format!("{name}: errors are not below zero")));
+        }
+        columns.push((name.to_owned(), values));
+    }
+    if !recording.others.is_empty() {
+        notify(&format!(
+            "{}: columns that are not read: {}",
+            printable(path),
+            recording.others.join(", ")
+        ));
+    }
     Ok(Measured { columns })
 }
 

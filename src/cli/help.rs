@@ -42,7 +42,8 @@ impl Help {
             ["study", name] => print(&of_key(name)?),
             ["output"] => print(&all_outputs()),
             ["output", name] => print(&of_output(name)?),
-            ["unit"] => print(&units()),
+            // All of them are few.
+            ["unit"] | ["unit", _] => print(&units()),
             ["book"] => print(&contents()),
             ["book", name] => print(&of_page(name)?),
             [command] => match program.find_subcommand_mut(command) {

@@ -84,6 +84,13 @@ impl Smooth {
             let column = column(recording.rows(), &sensed.rows, parts);
             columns.push((heading(name, dimension, self.derivative), column));
         }
+        if columns.is_empty() {
+            let names = Signal::ALL.map(Signal::name).join(", ");
+            let why = format!(
+                "it has no signal; the signals are {names}, current; --columns \"x2=NAME:mm\" says which column is one"
+            );
+            return Err(Failure::of_file(&self.recording, why));
+        }
         let text = csv(recording.required("t"), &columns);
         let samples = window(how, sampling.interval).samples;
         told.push(format!(

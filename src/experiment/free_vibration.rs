@@ -20,7 +20,7 @@ const NO_DECAY: &str = "no decay that oscillates can be fitted";
 pub struct FreeVibration {
     /// Stiffness and damping by the times and heights of the turning points [N/m, N s/m]; none where these are fewer than three.
     pub by_decrement: Option<[Estimate; 2]>,
-    /// The same by least squares on the whole decay.
+    /// The same by least squares on the decay, from where the mass first passes its rest position.
     pub by_decay: [Estimate; 2],
     /// Where the mass comes to rest [m].
     pub rest: f64,

@@ -133,7 +133,7 @@ fn of_decay(
         constant: Constant::Parameter(parameter.into()),
         estimate: found.by_decay[which],
         verdict: Verdict::Determined,
-        method: "least squares on the whole decay",
+        method: "least squares on the decay from where the mass first passes its rest position",
         source: recording.source.clone(),
         other: found.by_decrement.map(|estimates| Other {
             method: "logarithmic decrement",

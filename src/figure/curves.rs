@@ -269,6 +269,13 @@ pub fn legend(curves: &[Curve]) -> Vec<header::Entry> {
             legend.push((Mark::Line(curve.stroke(&periods)), Text::plain(&words)));
         }
     }
+    for symbol in SYMBOLS.into_iter().rev() {
+        let has_specials = |it: &Curve| it.symbol == symbol && !it.specials.is_empty();
+        if curves.iter().any(has_specials) {
+            let words = format!("{} from which a curve is followed", symbol.words);
+            legend.push((Mark::Symbol(symbol), Text::plain(&words)));
+        }
+    }
     legend.extend(met(curves).map(|it| (Mark::Codim2(it), Text::plain(it.words))));
     legend
 }

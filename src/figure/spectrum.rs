@@ -30,7 +30,7 @@ const SHOWN: f64 = 1e-6;
 /// By how much of its range a history may miss itself a period later and still repeat.
 const MISSED: f64 = 1e-6;
 /// Frequencies are shown up to the last amplitude of this share of the largest, unless limits are set.
-const REACH: f64 = 1e-3;
+const REACH: f64 = 1e-2;
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
