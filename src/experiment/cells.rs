@@ -105,7 +105,7 @@ impl Numbers {
 
 /// Whether a cell holds a number, with either decimal mark.
 pub(super) fn is_number(cell: &str) -> bool {
-    cell.parse::<f64>().is_ok() || with_comma(cell).is_some()
+    number(cell).is_some()
 }
 
 /// A number with either decimal mark.

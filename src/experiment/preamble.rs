@@ -132,7 +132,7 @@ pub(super) fn unit_of(
         let row = cells(line.text.trim_start_matches('#'), delimiter);
         let label =
             row.first().map_or_else(String::new, |it| it.trim_end_matches(':').to_lowercase());
-        let is_of_times = column.name == "t" && column.dimension == Dimension::Time;
+        let is_of_times = column.is_times() && column.dimension == Dimension::Time;
         if is_of_times && label == "x_dimension" && row.iter().skip(1).any(|it| it == "Time") {
             return Some(1.0);
         }

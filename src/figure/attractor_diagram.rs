@@ -36,7 +36,7 @@ pub fn draw(
     let (contents, marks) = contents(view, x_name, attractors, &looks)?;
     let has_own_colours = contents.paint.is_some();
     let mut windows = windows(&contents.cases.values, attractors);
-    let diagram = Diagram::of(view, contents);
+    let diagram = Diagram::of(view, contents)?;
     // Other limits may be set than those of the values.
     let Scale { low, high, .. } = diagram.abscissa.scale;
     windows.retain(|[from, to]| *from < high && *to > low && view.shows("coexistence"));

@@ -107,7 +107,7 @@ fn draw_branches(view: &View<'_>, x_name: &str) -> Result<Drawn, FigureError> {
     // Without cases there are only the lines of branches to explain.
     let is_told = contents.cases.values.is_empty() || contents.paint.is_some();
     let legend = if is_told { Vec::new() } else { legend(&branches) };
-    let diagram = Diagram::of(view, contents);
+    let diagram = Diagram::of(view, contents)?;
     let style =
         PointStyle { sorts: branches.iter().map(Branch::sort).collect(), beside_lines: 1.0 };
     Ok(diagram.draw(view, &style, legend, |canvas, panel, output| {

@@ -211,6 +211,11 @@ fn by_attractor(number: f64) -> (usize, Kind) {
     }
 }
 
+/// The colour of an outcome by its name; none of one that has none.
+pub fn colour_of_outcome(name: &str) -> Option<RGBColor> {
+    by_name(name)?.1.colour
+}
+
 /// The kind of a named outcome and its place in the legend, after those of the periods.
 fn by_name(name: &str) -> Option<(usize, Kind)> {
     let (rank, colour) = match name {

@@ -151,7 +151,9 @@ pub struct Diagram<'a> {
 
 impl<'a> Diagram<'a> {
     /// The diagram of all that is found; kinds of which no case is seen are not listed.
-    pub fn of(view: &View<'_>, contents: Contents<'a>) -> Diagram<'a> {
+    ///
+    /// Fails where a period is shown and the outcomes cannot be read.
+    pub fn of(view: &View<'_>, contents: Contents<'a>) -> Result<Diagram<'a>, FigureError> {
         let Cases { axis, ref values, .. } = contents.cases;
         let reached = contents.reached();
         let abscissa = AxisRequest::new(view.quantity(axis), span(values, &reached));
@@ -167,8 +169,8 @@ impl<'a> Diagram<'a> {
         let Contents { cases, outputs, .. } = &diagram.contents;
         let abscissae = (0..cases.count())
             .map(|case| diagram.is_seen(case).then(|| cases.values[case / cases.per_value]));
-        diagram.without_period = WithoutPeriod::of(view, &cases.free, outputs, abscissae);
-        diagram
+        diagram.without_period = WithoutPeriod::of(view, &cases.free, outputs, abscissae)?;
+        Ok(diagram)
     }
 
     /// Whether a case lies within the limits of the abscissa.

@@ -1,20 +1,20 @@
 //! Cases that have no period, along the upper side of a panel of periods: a period of 0 would be a number among numbers.
 
 use super::canvas::{Canvas, Stroke};
+use super::category;
+use super::error::FigureError;
 use super::header::{Entry, Mark};
 use super::outcome::Outcomes;
 use super::panel::Panel;
-use super::style::{CHAOTIC, CURVE_WIDTH, QUASI_PERIODIC, UNDECIDED};
+use super::style::{CURVE_WIDTH, INK};
 use super::text::Text;
 use super::view::View;
 use crate::store::catalogue::PERIOD;
-use plotters::style::RGBColor;
 
 /// Length of a mark, from the frame inward [pt].
 const LENGTH: f64 = 6.0;
-/// Outcomes without a period, in the colours that maps give them.
-const KINDS: [(&str, RGBColor); 3] =
-    [("chaotic", CHAOTIC), ("quasi-periodic", QUASI_PERIODIC), ("undecided", UNDECIDED)];
+/// Outcomes without a period.
+const KINDS: [&str; 3] = ["chaotic", "quasi-periodic", "undecided"];
 
 /// The cases without a period: their abscissae, and the places of their outcomes among [`KINDS`].
 #[derive(Default)]
@@ -30,26 +30,25 @@ impl WithoutPeriod {
         free: &[&str],
         outputs: &[String],
         abscissae: impl Iterator<Item = Option<f64>>,
-    ) -> WithoutPeriod {
+    ) -> Result<WithoutPeriod, FigureError> {
         let mut found = WithoutPeriod::default();
         if !outputs.iter().any(|output| output == PERIOD.name) {
-            return found;
+            return Ok(found);
         }
-        let Ok(outcomes) = Outcomes::over(view, free) else { return found };
+        let outcomes = Outcomes::over(view, free)?;
         for (case, x) in abscissae.enumerate() {
-            let kind = KINDS.iter().position(|(name, _)| outcomes.name(case) == Some(name));
+            let kind = KINDS.iter().position(|name| outcomes.name(case) == Some(name));
             found.cases.extend(x.zip(kind));
         }
-        found
+        Ok(found)
     }
 
     /// What the marks mean.
     pub fn legend(&self) -> impl Iterator<Item = Entry> {
         let present = |kind: usize| self.cases.iter().any(|it| it.1 == kind);
         let kinds = KINDS.into_iter().enumerate().filter(move |(kind, _)| present(*kind));
-        kinds.map(|(_, (name, colour))| {
-            (Mark::Tick(stroke(colour)), Text::plain(&format!("{name}: no period")))
-        })
+        kinds
+            .map(|(_, name)| (Mark::Tick(stroke(name)), Text::plain(&format!("{name}: no period"))))
     }
 
     /// Draws the marks at the upper side of a panel of periods.
@@ -57,7 +56,7 @@ impl WithoutPeriod {
         if output != PERIOD.name {
             return;
         }
-        for (number, (name, colour)) in KINDS.into_iter().enumerate() {
+        for (number, name) in KINDS.into_iter().enumerate() {
             let of_kind = self.cases.iter().filter(|it| it.1 == number).map(|it| it.0);
             let top = panel.frame.top;
             let marks: Vec<_> = of_kind
@@ -65,12 +64,13 @@ impl WithoutPeriod {
                 .map(|x| panel.place(x, panel.y.scale.low).0)
                 .map(|x| ((x, top), (x, top + LENGTH)))
                 .collect();
-            canvas.segments(&marks, stroke(colour));
+            canvas.segments(&marks, stroke(name));
             panel.record(canvas, &format!("{name}, no period"), of_kind.map(|x| (x, f64::NAN)));
         }
     }
 }
 
-fn stroke(colour: RGBColor) -> Stroke {
-    Stroke::solid(colour, CURVE_WIDTH)
+/// The mark of an outcome, in the colour that maps give it.
+fn stroke(outcome: &str) -> Stroke {
+    Stroke::solid(category::colour_of_outcome(outcome).unwrap_or(INK), CURVE_WIDTH)
 }
