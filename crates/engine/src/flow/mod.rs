@@ -3,10 +3,13 @@
 pub mod breakdown;
 pub mod cycle;
 pub mod defect;
+mod expand;
 pub mod guard;
+mod locate;
 pub mod metric;
 pub mod motion;
 pub mod observer;
+mod obey;
 mod pace;
 mod step;
 mod step_end;

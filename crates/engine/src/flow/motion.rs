@@ -1,9 +1,11 @@
 //! The event loop: step, locate, switch.
 
-use crate::lane::{Lane, Mask, Series, SideBySide, series};
+use crate::lane::{Lane, Mask, SideBySide, series};
 
 use super::breakdown::Breakdown;
-use super::guard::{divide_by_time, first_fall, stays_positive};
+use super::expand::Expand;
+use super::locate::Locate;
+use super::obey::Obey;
 use super::step::Step;
 use super::step_end::StepEnd;
 use super::stop;
@@ -13,9 +15,6 @@ use super::switched::{Event as _, MAX_GUARDS, Switched, Zeros};
 const PATIENCE: f64 = 64.0;
 /// A step shorter than this share of the cycle gets nowhere.
 const STANDSTILL: f64 = 1e-14;
-
-/// A section's function this far beyond zero, relative to its change in a step, is not there by rounding.
-const ACROSS: f64 = 1e-9;
 
 /// A motion: its time, its state and its mode.
 #[derive(Debug)]
@@ -88,11 +87,13 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     /// step where its guard falls through zero, to rounding.
     #[inline(always)]
     pub fn step(&mut self, system: &S, until: L, tolerance: f64, step: &mut Step<L, S>) {
-        system.expand(&self.mode, self.time, &self.state, &mut step.jet);
         let left = until - self.time;
-        let allowed = system.longest_step(&step.jet, tolerance).min(left.plain());
-        let length = system.step_bound(&self.mode, &step.jet, allowed, tolerance);
-        let end = self.locate(system, step, length);
+        let (mode, time, state) = (&self.mode, self.time, &self.state);
+        let most = left.plain();
+        let length =
+            L::apart(Expand { system, mode, time, state, most, tolerance, jet: &mut step.jet });
+        let (zeros, side) = (&self.zeros, &mut self.side);
+        let end = L::apart(Locate { system, mode, zeros, side, length, step });
 
         let arrives = left.plain().le(end.length);
         let cut = L::select(arrives, left, L::from_plain(end.length));
@@ -108,22 +109,9 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         self.idle = L::select(idles, self.idle + L::splat(1.0), L::splat(0.0));
         self.idle = L::select(end.unknown, L::splat(f64::INFINITY), self.idle);
         step.switches = end.falls();
-        step.event = self.switch(system, &end);
+        let Motion { mode, state, zeros, time, .. } = self;
+        step.event = L::apart(Obey { system, end: &end, mode, state, zeros, time: *time });
         step.arrives = if S::AUTONOMOUS { self.pass_section(&end) } else { until.le(self.time) };
-    }
-
-    /// Obeys the guard that ends the step; returns the kind of event.
-    #[inline(always)]
-    fn switch(&mut self, system: &S, end: &StepEnd<L>) -> L {
-        let mut event = L::splat(0.0);
-        for which in 0..S::GUARDS {
-            let due = end.is_due(which);
-            if due.any() {
-                let Motion { mode, state, zeros, .. } = self;
-                event = event + system.switch(which, due, mode, state, zeros, self.time);
-            }
-        }
-        event
     }
 
     /// A step as [`Motion::step`] takes it, compiled once for each kind of number: what is not followed side by side takes its steps here.
@@ -176,137 +164,6 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let is_late = S::AUTONOMOUS && system.period().le(self.time).lane(index);
         let stopped = stop::is_asked().then_some(Breakdown::Stopped);
         is_late.then_some(Breakdown::NoReturn).or(stopped)
-    }
-
-    /// The first guard to fall within `length`.
-    ///
-    /// Most guards cannot fall and are told at once; the others are decided in turn, each lane its own,
-    /// so that lanes whose events differ share the search for a root.
-    #[inline(always)]
-    fn locate(&mut self, system: &S, step: &mut Step<L, S>, length: L::Plain) -> StepEnd<L> {
-        let none = L::Plain::splat(-1.0);
-        let unknown = L::Mask::splat(false);
-        let mut end = StepEnd { length, guard: none, root: L::from_plain(length), unknown };
-        let mut open = self.open_guards(system, step, length);
-        loop {
-            let mut chosen = none;
-            for which in (0..Step::<L, S>::GUARDS).rev() {
-                let this = L::Plain::splat(which as f64);
-                chosen = L::Plain::select(open[which], this, chosen);
-            }
-            let takes_part = none.lt(chosen);
-            if !takes_part.any() {
-                break;
-            }
-            step.choose(chosen);
-            end.unknown = end.unknown | (takes_part & !series::is_finite(&step.chosen));
-            let fall = first_fall(&mut step.chosen, end.length, takes_part);
-            let sooner = fall.length.lt(end.length);
-            end.guard = L::Plain::select(sooner, none, end.guard);
-            end.guard = L::Plain::select(fall.falls, chosen, end.guard);
-            end.length = fall.length;
-            for (which, open) in open.iter_mut().enumerate() {
-                *open = *open & chosen.lt(L::Plain::splat(which as f64));
-            }
-        }
-        end.root = L::from_plain(end.length);
-        if const { L::PARTS > 1 } {
-            for which in 0..Step::<L, S>::GUARDS {
-                let due = end.is_due(which);
-                if due.any() {
-                    let guard = &mut step.guards[0];
-                    self.write_guard(system, which, &step.jet, guard);
-                    end.root = L::select(due, L::root(end.length, guard), end.root);
-                }
-            }
-        }
-        end
-    }
-
-    /// Writes a guard with its derivatives, its known zeros divided out.
-    #[inline(always)]
-    fn write_guard(&self, system: &S, which: usize, jet: &S::Jet, guard: &mut Series<L>) {
-        if S::AUTONOMOUS && which == S::GUARDS {
-            system.section(jet, guard);
-            guard.iter_mut().for_each(|term| *term = self.side * *term);
-        } else {
-            system.guard(which, &self.mode, jet, guard);
-        }
-        self.divide_by_zeros(which, guard);
-    }
-
-    /// Divides the known zeros out of a guard.
-    #[inline(always)]
-    fn divide_by_zeros<P: Lane<Mask = L::Mask>>(&self, which: usize, guard: &mut Series<P>) {
-        for vanished in 0..S::MOST_ZEROS {
-            let drop = L::splat(vanished as f64 + 0.5).lt(self.zeros[which]);
-            if drop.any() {
-                divide_by_time(guard, drop);
-            }
-        }
-    }
-
-    /// Notes the sign by which the function of the section falls through zero next, and says whether it may.
-    ///
-    /// An event that moves the state may take it across the section, which is no return to it: a value that is below
-    /// zero by more than rounding, of the size of what the function changes by in a step, tells so. While a motion rests on the
-    /// section the function is zero throughout: it does not fall then, and its sign is that by which the motion leaves.
-    #[inline(always)]
-    fn turn_to_section(&mut self, section: &Series<L>, length: L::Plain) -> L::Mask {
-        let zero = L::splat(0.0);
-        let next = series::sign_after_start(section, zero);
-        self.side = L::select(zero.lt(self.side * self.side), self.side, next);
-        let [value, slope, bend] = [0, 1, 2].map(|k| (self.side * section[k]).plain());
-        let change = (slope * length).abs().max((bend * length * length).abs());
-        let is_across = value.lt(-(change * L::Plain::splat(ACROSS)));
-        let mut size = zero;
-        for term in section {
-            size = size + term.abs();
-        }
-        let rests = size.le(zero);
-        self.side = L::select(is_across, -self.side, L::select(rests, zero, self.side));
-        !rests
-    }
-
-    /// Writes the guards without their derivatives, with their known zeros divided out; where each of them might fall within
-    /// `length`.
-    #[inline(always)]
-    fn open_guards(
-        &mut self,
-        system: &S,
-        step: &mut Step<L, S>,
-        length: L::Plain,
-    ) -> [L::Mask; MAX_GUARDS] {
-        let mut open = [L::Mask::splat(false); MAX_GUARDS];
-        for (which, open) in open.iter_mut().enumerate().take(Step::<L, S>::GUARDS) {
-            let is_section = S::AUTONOMOUS && which == S::GUARDS;
-            let mut watched = match is_section {
-                true => L::Mask::splat(true),
-                false => system.watched(which, &self.mode),
-            };
-            if !watched.any() {
-                continue;
-            }
-            let Step { jet, guards, plain_guards, .. } = step;
-            // Of numbers with derivatives the guards without them are kept, and one room serves all: caches are small.
-            let place = if const { L::PARTS > 1 } { 0 } else { which };
-            let (guard, plain) = (&mut guards[place], &mut plain_guards[which]);
-            let guard = if is_section {
-                system.section(jet, guard);
-                watched = self.turn_to_section(guard, length);
-                guard.iter_mut().for_each(|term| *term = self.side * *term);
-                L::plain_series(guard, plain)
-            } else if const { L::PARTS > 1 } {
-                system.plain_guard(which, &self.mode, jet, guard, plain);
-                plain
-            } else {
-                system.guard(which, &self.mode, jet, guard);
-                L::plain_series(guard, plain)
-            };
-            self.divide_by_zeros(which, guard);
-            *open = watched & !stays_positive(guard, length);
-        }
-        open
     }
 }
 

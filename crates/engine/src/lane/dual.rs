@@ -3,7 +3,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::unrolled::unrolled;
-use super::{Differentiable, Lane, ORDER, Series, series};
+use super::{Differentiable, Lane, ORDER, Part, Series, series};
 
 /// A number per lane with its derivatives along `N` directions.
 ///
@@ -114,6 +114,10 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
     const WIDTH: usize = L::WIDTH;
     const ZERO: Self = Dual { value: L::ZERO, gradient: [L::ZERO; N] };
 
+    #[inline(always)]
+    fn apart<P: Part>(part: P) -> P::Output {
+        L::apart(part)
+    }
     #[inline(always)]
     fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
         Dual::constant(L::from_fn(value))

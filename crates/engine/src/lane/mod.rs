@@ -27,7 +27,7 @@ pub use order::{ORDER, Series};
 pub use pair::Pair;
 pub use side_by_side::SideBySide;
 pub use wide::Wide;
-pub use work::Work;
+pub use work::{Part, Work};
 
 pub use crate::{in_lanes, side_by_side};
 
@@ -128,6 +128,9 @@ pub trait Lane:
     fn apply<F: Differentiable<M>, const M: usize>(self, function: &F) -> [Self; M];
     /// The inverse of `rough_log`, for numbers in -1022..=1023; to 20 bits of the fraction.
     fn rough_exp(self) -> Self;
+
+    /// Does a part of a step in a function of its own, with the instructions of these lanes.
+    fn apart<P: Part>(part: P) -> P::Output;
 
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
@@ -268,11 +271,23 @@ macro_rules! plain {
 }
 use plain;
 
+/// What lanes say whose instructions every processor of the architecture has.
+macro_rules! everywhere {
+    () => {
+        #[inline(never)]
+        fn apart<P: $crate::lane::Part>(part: P) -> P::Output {
+            part.run()
+        }
+    };
+}
+use everywhere;
+
 impl Lane for f64 {
     type Mask = bool;
     const WIDTH: usize = 1;
     const ZERO: Self = 0.0;
     plain!();
+    everywhere!();
 
     #[inline(always)]
     fn from_fn(mut value: impl FnMut(usize) -> f64) -> f64 {

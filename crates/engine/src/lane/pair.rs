@@ -69,6 +69,7 @@ impl Lane for Pair {
     const WIDTH: usize = 2;
     const ZERO: Self = Pair([0.0; 2]);
     super::plain!();
+    super::everywhere!();
 
     #[inline(always)]
     fn splat(value: f64) -> Self {

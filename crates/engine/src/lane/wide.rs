@@ -3,7 +3,7 @@
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::unrolled::unrolled;
-use super::{Lane, Mask};
+use super::{Lane, Mask, Part};
 
 /// `M` groups of lanes, or of their truth values, each treated exactly as it would be alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,6 +86,10 @@ impl<L: Lane, const M: usize> Lane for Wide<L, M> {
     const ZERO: Self = Wide([L::ZERO; M]);
     super::plain!();
 
+    #[inline(always)]
+    fn apart<P: Part>(part: P) -> P::Output {
+        L::apart(part)
+    }
     #[inline(always)]
     fn splat(value: f64) -> Self {
         each!(Self::ZERO, |_| L::splat(value))

@@ -10,14 +10,18 @@ use std::arch::x86_64::*;
 use std::mem::transmute;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::work::Work;
+use super::work::{Part, Work};
 use super::{INFINITE, LOG_ONE, LOG_UNIT, Lane, Mask, WHOLE, Wide};
 
 /// Runs `work` on so many vectors of AVX-512, none where the processor lacks it.
 pub(super) fn with_avx512<const N: usize, W: Work>(work: W) -> Option<W::Output> {
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
     fn run<const N: usize, W: Work>(work: W) -> W::Output {
-        work.run::<Wide<Avx512, N>>()
+        match const { N } {
+            // Much faster to compile than an array of one.
+            1 => work.run::<Avx512>(),
+            _ => work.run::<Wide<Avx512, N>>(),
+        }
     }
     // SAFETY: the processor has what `run` is compiled for.
     has_avx512().then(|| unsafe { run::<N, W>(work) })
@@ -27,7 +31,10 @@ pub(super) fn with_avx512<const N: usize, W: Work>(work: W) -> Option<W::Output>
 pub(super) fn with_avx2<const N: usize, W: Work>(work: W) -> Option<W::Output> {
     #[target_feature(enable = "avx2")]
     fn run<const N: usize, W: Work>(work: W) -> W::Output {
-        work.run::<Wide<Avx2, N>>()
+        match const { N } {
+            1 => work.run::<Avx2>(),
+            _ => work.run::<Wide<Avx2, N>>(),
+        }
     }
     // SAFETY: the processor has what `run` is compiled for.
     has_avx2().then(|| unsafe { run::<N, W>(work) })
@@ -261,6 +268,16 @@ impl Lane for Avx512 {
     type Mask = Mask8;
     super::plain!();
 
+    #[inline(always)]
+    fn apart<P: Part>(part: P) -> P::Output {
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
+        #[inline(never)]
+        fn run<P: Part>(part: P) -> P::Output {
+            part.run()
+        }
+        here!(run(part))
+    }
+
     lanes_alike!(
         8,
         Avx512,
@@ -291,6 +308,16 @@ impl Lane for Avx512 {
 impl Lane for Avx2 {
     type Mask = Mask4;
     super::plain!();
+
+    #[inline(always)]
+    fn apart<P: Part>(part: P) -> P::Output {
+        #[target_feature(enable = "avx2")]
+        #[inline(never)]
+        fn run<P: Part>(part: P) -> P::Output {
+            part.run()
+        }
+        here!(run(part))
+    }
 
     lanes_alike!(
         4,
