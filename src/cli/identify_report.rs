@@ -79,7 +79,18 @@ pub fn table(all: &[Identified]) -> String {
             text += &format!("{:<15}{}\n", "", it.verdict);
         }
         for note in &it.notes {
-            text += &format!("{:<15}warning: {note}\n", "");
+            let having: Vec<&Identified> = all
+                .iter()
+                .filter(|other| other.source == it.source && other.notes.contains(note))
+                .collect();
+            // A note of several constants is told once, with the first of them.
+            if having.first().is_none_or(|first| first.constant != it.constant) {
+                continue;
+            }
+            let names: Vec<&str> = having.iter().map(|it| it.constant.symbol()).collect();
+            let of =
+                if names.len() > 1 { format!(" of {}", names.join(", ")) } else { String::new() };
+            text += &format!("{:<15}warning{of}: {note}\n", "");
         }
     }
     text

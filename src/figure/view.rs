@@ -83,12 +83,14 @@ impl<'a> View<'a> {
             return Ok(());
         }
         if self.dataset.variable(name).is_some() {
-            let known = if axes.is_empty() { "none".to_string() } else { axes.join(", ") };
+            let known = match axes.is_empty() {
+                true => "none".to_owned(),
+                false => self.named_along().join(", "),
+            };
             let why = format!("`{name}` is not an axis of this study (its axes: {known})");
             return Err(self.unfit(why));
         }
-        let present = axes.iter().map(|axis| axis.to_string()).collect();
-        Err(self.missing("axis", name, present))
+        Err(self.missing("axis", name, self.named_along()))
     }
 
     fn missing(&self, what: &'static str, name: &str, present: Vec<String>) -> FigureError {

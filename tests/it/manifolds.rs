@@ -35,7 +35,8 @@ fn found(study: &Study, machine: Machine) -> (Attractors, Manifolds<Section>) {
     let motions = run::final_motions(study, &records);
     let found = run::attractors(study, &motions, machine, || ()).expect("the threads start");
     let mut edges = run::edges(study, &found, machine);
-    let manifolds = run::manifolds(study, &found, &mut edges, machine).expect("they are asked for");
+    let manifolds =
+        run::manifolds(study, &found, &mut edges, machine, |_| ()).expect("they are asked for");
     (found, manifolds)
 }
 
