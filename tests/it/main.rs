@@ -99,6 +99,7 @@ mod refined_front;
 mod refinement;
 mod refinement_starts;
 mod regression;
+mod releases;
 mod report;
 mod rest;
 mod rig;

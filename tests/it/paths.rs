@@ -216,7 +216,9 @@ fn figures_name_what_varies_along_a_path() {
         )
     };
     drawn(&["--x", "p_d", "--name", "again"]).done();
-    drawn(&["--x", "delta"]).refused(&["`delta` is not an axis of this study"]);
+    // A path is told by its own name, and by what goes along it.
+    let all = "`delta` is not an axis of this study (its axes: line (a path along which go ";
+    drawn(&["--x", "delta"]).refused(&[all, "omega", "p_d)"]);
     dir.run(&[
         "figure",
         "along.h5",
