@@ -255,10 +255,13 @@ fn write_protocol(page: &mut Page, study: &Study) {
         .into_iter()
         .map(|(what, value, unit)| vec![Cell::text(what), Cell::text(value), Cell::text(unit)]);
     let table = Table {
-        caption: "The protocol: how each case is followed and judged.".to_owned(),
+        caption: "The protocol of the cases.".to_owned(),
         columns: vec![Column::long("setting"), Column::number("value"), Column::text("unit")],
         rows: rows.collect(),
     };
     page.subsection("Protocol");
+    page.text(
+        Prose::from("How a case is followed and judged is in ").see(page.next_table()).and("."),
+    );
     page.table(&table);
 }

@@ -1,9 +1,10 @@
 //! What is said below a figure of a report: its kind, what is seen in it, and what it leaves out.
 
+use super::computation::listed;
 use super::numbers::{called, lower};
 use crate::description::Description;
 use crate::figure::Picture;
-use crate::store::catalogue::named;
+use crate::store::catalogue::{DIRECTION, named};
 use crate::study::{Coordinate, Drawing, DrawingKind};
 
 /// The caption of a figure of a study, and its notes, a sentence each.
@@ -15,7 +16,9 @@ pub fn caption(drawing: &Drawing, picture: &Picture, model: &'static Description
         None => format!("{kind} \u{201c}{}\u{201d}", drawing.name),
     };
     let notes: String = picture.notes.iter().map(|it| sentence(it)).collect();
-    format!("{title}: {}.{notes}", seen(&picture.about, model))
+    // Diagrams have a panel for each output, one below the other.
+    let is_lettered = drawing.kind == DrawingKind::Bifurcation && drawing.panels.is_empty();
+    format!("{title}: {}.{notes}", seen(&picture.about, is_lettered, model))
 }
 
 /// What a kind of figure is called.
@@ -38,25 +41,36 @@ fn sentence(note: &str) -> String {
     format!(" {first}{}.", letters.as_str())
 }
 
-/// What a figure shows, with quantities called as figures call them; what stands behind a semicolon stays as it is.
-fn seen(about: &str, model: &'static Description) -> String {
-    let (shown, more) = match about.split_once("; ") {
-        Some((shown, more)) => (shown, format!("; {more}")),
-        None => (about, String::new()),
-    };
+/// What a figure shows, with quantities called as figures call them; what stands behind a colon or a semicolon stays as it is.
+fn seen(about: &str, is_lettered: bool, model: &'static Description) -> String {
+    let end = [": ", "; "].into_iter().filter_map(|it| about.find(it)).min().unwrap_or(about.len());
+    let (shown, more) = about.split_at(end);
     let (shown, at) = match shown.split_once(" at ") {
         Some((shown, at)) => (shown, format!(" at {at}")),
         None => (shown, String::new()),
     };
-    let parts = shown.split(" over ").map(|part| {
-        let names = part.split(", ").map(|name| in_words(name, model));
-        names.collect::<Vec<_>>().join(", ")
-    });
-    format!("{}{at}{more}", parts.collect::<Vec<_>>().join(" over "))
+    let (outputs, over) = match shown.split_once(" over ") {
+        Some((outputs, over)) => (outputs, format!(" over {}", in_words(over, false, model))),
+        None => (shown, String::new()),
+    };
+    format!("{}{over}{at}{more}", in_words(outputs, is_lettered, model))
+}
+
+/// Variables called in words, with the letters of panels, if each has one.
+fn in_words(names: &str, is_lettered: bool, model: &'static Description) -> String {
+    let words: Vec<String> = names.split(", ").map(|name| word(name, model)).collect();
+    if !is_lettered || words.len() < 2 {
+        return listed(&words);
+    }
+    let lettered = ('a'..='z').zip(&words).map(|(letter, word)| format!("({letter}) {word}"));
+    listed(&lettered.collect::<Vec<_>>())
 }
 
 /// A variable called in words; what is none stays as it is.
-fn in_words(name: &str, model: &'static Description) -> String {
+fn word(name: &str, model: &'static Description) -> String {
+    if name == DIRECTION.name {
+        return "direction of the sweep".to_owned();
+    }
     if let Some(coordinate) = Coordinate::all(model).find(|it| it.name() == name) {
         return match coordinate.meaning() {
             "" => name.to_owned(),
@@ -68,7 +82,11 @@ fn in_words(name: &str, model: &'static Description) -> String {
     }
     match named(name, model).map(|entry| entry.meaning) {
         Some("") | None => name.to_owned(),
-        Some(meaning) => meaning.to_owned(),
+        // What is said of its numbers is not what it is.
+        Some(meaning) => {
+            let meaning = meaning.split(", ").next().unwrap_or(meaning);
+            meaning.replace(" - ", " \u{2212} ")
+        }
     }
 }
 
@@ -81,9 +99,11 @@ mod tests {
     fn quantities_are_called_in_words() {
         let model = default_model();
         let about = "section_r, progression_speed over omega at p_d = 3.4 N; 3 cases";
-        let words = "relative displacement x1 - x2 at the stroboscopic section, progression speed over \
+        let words = "(a) relative displacement x1 \u{2212} x2 at the stroboscopic section and (b) progression speed over \
              frequency of the drive (omega) at p_d = 3.4 N; 3 cases";
-        assert_eq!(seen(about, model), words);
+        assert_eq!(seen(about, true, model), words);
+        let words = "attractor that the case ends on over relative displacement at the start (start_r): 2 at 3 %; more";
+        assert_eq!(seen("attractor over start_r: 2 at 3 %; more", false, model), words);
         assert_eq!(kind(DrawingKind::PhasePortrait), "Phase portrait");
         assert_eq!(
             sentence("special points that are not marked: 3."),

@@ -6,6 +6,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::escaped::escaped;
+use super::numbers::signed;
 use super::table::Table;
 use crate::figure::Picture;
 
@@ -52,7 +53,7 @@ pub struct Prose(String);
 impl Prose {
     /// A paragraph that goes on with a text.
     pub fn and(self, text: &str) -> Prose {
-        Prose(self.0 + &escaped(text))
+        Prose(self.0 + &escaped(&signed(text)))
     }
 
     /// A paragraph that goes on with a reference.
@@ -181,7 +182,7 @@ impl Page {
         let _ = writeln!(
             self.body,
             "</div>\n<figcaption><b>{name}.</b> {}</figcaption>\n</figure>",
-            escaped(caption)
+            escaped(&signed(caption))
         );
     }
 
@@ -189,7 +190,7 @@ impl Page {
     pub fn finish(self, title: &str, facts: &[(&str, String)]) -> String {
         let title = escaped(title);
         let (facts, contents) = (listed(facts), self.contents());
-        let in_short = escaped(&self.in_short.join(" "));
+        let in_short = escaped(&signed(&self.in_short.join(" ")));
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n{GENERATOR}\n<title>{title}</title>\n\

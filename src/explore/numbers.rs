@@ -5,6 +5,10 @@ use crate::study::Coordinate;
 
 /// Digits that count of a number.
 const DIGITS: i32 = 6;
+/// Numbers below this have an exponent.
+const SMALL: f64 = 1e-4;
+/// Labels that begin so are written with a capital within a sentence, too.
+const PROPER: [&str; 5] = ["Lyapunov", "Floquet", "Stribeck", "Pareto", "Sobol"];
 
 /// The unit of a coordinate as it is read; empty where it has none.
 pub fn unit(coordinate: Coordinate) -> String {
@@ -56,6 +60,9 @@ pub fn called(quantity: Quantity) -> String {
 
 /// A label as it stands within a sentence.
 pub fn lower(label: &str) -> String {
+    if PROPER.iter().any(|name| label.starts_with(name)) {
+        return label.to_owned();
+    }
     let mut letters = label.chars();
     let first: String = letters.next().into_iter().flat_map(char::to_lowercase).collect();
     first + letters.as_str()
@@ -63,8 +70,16 @@ pub fn lower(label: &str) -> String {
 
 /// A number with six digits that count.
 pub fn digits(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
+    if !value.is_finite() {
+        return value.to_string();
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if value.abs() < SMALL {
+        let text = format!("{value:.*e}", DIGITS as usize - 1);
+        let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{exponent}", without_zeros(digits));
     }
     let decimals = (DIGITS - 1 - value.abs().log10().floor() as i32).clamp(0, 12) as usize;
     format!("{value:.decimals$}")
@@ -72,9 +87,16 @@ pub fn digits(value: f64) -> String {
 
 /// A number with six digits that count, without zeros at its end.
 pub fn number(value: f64) -> String {
-    let text = digits(value);
+    match digits(value) {
+        text if text.contains('e') => text,
+        text => without_zeros(&text).to_owned(),
+    }
+}
+
+/// Decimals without zeros at their end.
+fn without_zeros(text: &str) -> &str {
     match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        true => text.trim_end_matches('0').trim_end_matches('.'),
         false => text,
     }
 }
@@ -110,6 +132,10 @@ mod tests {
         assert_eq!(
             signed("-1.5 1e-12 at -3 quasi-periodic x1-2"),
             "\u{2212}1.5 1e-12 at \u{2212}3 quasi-periodic x1-2"
+        );
+        assert_eq!(
+            [digits(-2.5e-14), number(2e-5), lower("Lyapunov exponent")],
+            ["-2.5e-14", "2e-5", "Lyapunov exponent"]
         );
         assert_eq!([digits(0.5), number(0.5), number(-1420.0)], ["0.500000", "0.5", "-1420"]);
     }

@@ -6,12 +6,12 @@ use super::numbers::{called, measured};
 use super::optima_tables::{front, margins, optima, sensitivities};
 use super::optimum::{Drawings, Undrawn, drawings};
 use super::request::Request;
-use crate::campaign::count::count;
+use crate::campaign::count::counted;
 use crate::campaign::{
     Answer, Between, CampaignError, KeptFront, Named, Refined, Row, TradeOff, silent,
 };
 use crate::study::Study;
-use crate::tradeoff::{Direction, GainAndCost, Optimum, unit_behind};
+use crate::tradeoff::{Direction, GainAndCost, unit_behind};
 
 /// Writes the optima in a direction, of the cases and of what was found between them, if anything was sought: those that keep its
 /// conditions.
@@ -65,18 +65,37 @@ pub fn write_optima(
     }
 }
 
-/// Motions that are the best in something, each once, with all that they are the best in.
+/// Motions that are the best in something, each once.
 fn each_once(answer: &Answer) -> Vec<(String, Row)> {
     let mut named: Vec<(String, Row)> = Vec::new();
     for Named { name, row } in &answer.named {
         let Some(row) = row else { continue };
         let name = name.replace('_', " ");
         match named.iter_mut().find(|(_, it)| it.replay == row.replay) {
-            Some((others, _)) => *others += &format!(" and {name}"),
+            Some((others, _)) => *others += &format!("{AND}{name}"),
             None => named.push((name, row.clone())),
         }
     }
     named
+}
+
+/// Between the names of a motion that is the best in several things.
+const AND: &str = " and ";
+
+/// A motion in a sentence, by what it is the best in.
+fn phrase(name: &str) -> String {
+    let mut words = name.split(AND).map(|it| match it {
+        "fastest" => "fastest".to_owned(),
+        "knee" => "at the knee".to_owned(),
+        other => format!("with the {other}"),
+    });
+    let first = words.next().unwrap_or_default();
+    let others: Vec<String> = words.collect();
+    let more = if others.is_empty() { String::new() } else { format!(", {}", listed(&others)) };
+    match first.as_str() {
+        "fastest" => format!("fastest motion{more}"),
+        place => format!("motion {place}{more}"),
+    }
 }
 
 /// Writes the optima that were found; `moving` tells their direction and condition.
@@ -97,7 +116,9 @@ fn write_answer(
     if let Some(table) = margins(&named, study.base.model(), moving) {
         page.table(&table);
     }
-    page.table(&front(answer, moving));
+    if answer.front.len() > 1 {
+        page.table(&front(answer, moving));
+    }
     let replays: Vec<&str> = named.iter().map(|(_, row)| row.replay.as_str()).collect();
     page.text("To compute the best motions again:");
     page.verbatim(&replays.join("\n"));
@@ -123,8 +144,9 @@ fn write_motions(
                     None => "between the cases".to_owned(),
                 };
                 let caption = format!(
-                    "The motion of {name}, {moving} ({where_it_is}): displacements and velocities over {cycles} cycles of the drive, and \
-                     the phase portrait of the relative motion."
+                    "The {}, {moving} ({where_it_is}): displacements and velocities over {cycles} cycles of the drive, and \
+                     the phase portrait of the relative motion.",
+                    phrase(name)
                 );
                 page.pictures(&pictures, &caption);
             }
@@ -136,29 +158,25 @@ fn write_motions(
     Ok(())
 }
 
-/// The motion with the most gain and that with the least cost per gain, in a sentence.
+/// The best motions in a sentence.
 fn best_in_words(answer: &Answer, moving: &str) -> String {
     let of = answer.of;
-    let most = Optimum::MostGain.name(of);
-    let least = Optimum::LeastPerGain.name(of);
-    let told = answer.named.iter().filter(|it| [most, least].contains(&it.name));
-    let told = told.filter_map(|Named { name, row }| {
-        let row = row.as_ref()?;
+    let told = each_once(answer).into_iter().map(|(name, row)| {
         let varied = row.coordinates.iter().filter(|(_, _, varies)| *varies);
         let at: Vec<String> = varied
             .map(|(it, value, _)| {
                 format!("{} = {}", it.name(), measured(*value, it.dimension().unit()))
             })
             .collect();
-        let at = if at.is_empty() { String::new() } else { format!(", at {}", listed(&at)) };
+        let at = if at.is_empty() { String::new() } else { format!(" at {}", listed(&at)) };
         let [gain, cost] = [(of.gain, row.gain), (of.cost, row.price)].map(|(output, value)| {
-            format!("{} of {}", called(output.quantity()), measured(value, output.unit()))
+            format!("a {} of {}", called(output.quantity()), measured(value, output.unit()))
         });
-        Some(format!("that called {} has a {gain} and a {cost}{at}", name.replace('_', " ")))
+        format!("the {} has {gain} and {cost}{at}", phrase(&name))
     });
     let told: Vec<String> = told.collect();
-    let front = count(answer.front.len());
-    format!("{moving}, the Pareto front has {front} motions; {}.", told.join("; "))
+    let front = counted(answer.front.len(), "motion");
+    format!("{moving}, the Pareto front has {front}: {}.", told.join("; "))
 }
 
 /// The front, what takes part in it and what does not.

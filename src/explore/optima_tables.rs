@@ -16,20 +16,17 @@ fn gains_and_costs(of: GainAndCost) -> Vec<Column> {
     let [gain, cost] = of.both().map(|it| Column::number(&heading(it)));
     let per_gain = of.told_per_gain().map_or("cost per gain".to_owned(), heading);
     let own = (of.told_per_gain() != Some(of.cost)).then(|| Column::number(&per_gain));
-    [gain, cost].into_iter().chain(own).collect()
+    let error = format!("standard error of the {}", called(of.gain.quantity()));
+    let error = Column::number(&with_unit(&error, of.gain.unit()));
+    [gain, cost].into_iter().chain(own).chain([error]).collect()
 }
 
 /// The cells of these columns.
 fn gain_and_cost(row: &Row, of: GainAndCost) -> Vec<Cell> {
-    let gain = match &row.errors {
-        Some(errors) => {
-            let text = format!("{} \u{b1} {}", digits(row.gain), number(errors.gain));
-            Cell::valued(&text, row.gain)
-        }
-        None => Cell::text(digits(row.gain)),
-    };
     let per_gain = (of.told_per_gain() != Some(of.cost)).then(|| Cell::text(digits(row.per_gain)));
-    [gain, Cell::text(digits(row.price))].into_iter().chain(per_gain).collect()
+    let error = row.errors.as_ref().map_or(String::new(), |it| format!("{:.1e}", it.gain));
+    let both = [row.gain, row.price].map(|it| Cell::text(digits(it)));
+    both.into_iter().chain(per_gain).chain([Cell::text(error)]).collect()
 }
 
 /// The columns of what varies; none without motions.
@@ -110,11 +107,12 @@ pub fn front(answer: &Answer, moving: &str) -> Table {
         let first = gain_and_cost(row, answer.of).into_iter().chain(values(row));
         first.chain([Cell::text(motion(row)), case(row)]).collect()
     });
-    Table {
+    let table = Table {
         caption: format!("The Pareto front, {moving}, by rising cost.{how_many}"),
         columns: columns.collect(),
         rows: rows.collect(),
-    }
+    };
+    table.without_empty_columns()
 }
 
 /// By how many percent gain and price of the motions between the cases change per percent of each parameter.
@@ -163,12 +161,13 @@ pub fn margins(
     }
     let rows = model.parameters().filter_map(|parameter| margin_line(&known, parameter));
     let columns = known.iter().flat_map(|(name, _)| {
-        ["falling", "rising"].map(|it| Column::number(&format!("{name}, {it}")))
+        ["falling", "rising"].map(|it| Column::number(&format!("{name}, {it} [%]")))
     });
     Some(Table {
         caption: format!(
-            "Where each motion, {moving}, ends or loses its stability as one parameter falls or rises, by a half at most; `capsulemap \
-             tradeoff --margins` tells the changes of events on the way, too."
+            "What ends each motion, {moving}, or its stability, as one parameter falls or rises, and after which change in percent; none: it \
+             stays stable up to a change by a half; unknown: it could not be followed further. `capsulemap tradeoff --margins` tells the \
+             changes of events on the way, too."
         ),
         columns: [Column::text("parameter")].into_iter().chain(columns).collect(),
         rows: rows.collect(),
@@ -191,13 +190,17 @@ fn margin_line(motions: &[&(String, Row)], parameter: Parameter) -> Option<Vec<C
 
 /// What ends a motion, down and up, sorted by how far that is; what is not known stands last.
 fn ends(margins: &Margins) -> [Cell; 2] {
-    let [down, up] = margins.ends();
-    [(down, &margins.down), (up, &margins.up)].map(|(text, margin)| {
-        let Margin { until, end, .. } = margin;
-        let change = match end {
-            MarginEnd::NotFollowed => f64::NAN,
-            _ => 100.0 * (until / margins.at - 1.0),
-        };
-        Cell::valued(&text, change)
+    [&margins.down, &margins.up].map(|Margin { until, end, .. }| {
+        let change = 100.0 * (until / margins.at - 1.0);
+        match end {
+            MarginEnd::Range => Cell::valued("none", change),
+            MarginEnd::NotFollowed => {
+                Cell::valued(&format!("unknown beyond {change:+.2}"), f64::NAN)
+            }
+            MarginEnd::Bifurcation(it) => {
+                let name = it.name().replace('-', " ");
+                Cell::valued(&format!("{name} {change:+.2}"), change)
+            }
+        }
     })
 }

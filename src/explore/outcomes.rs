@@ -12,7 +12,6 @@ use crate::description::Parameter;
 use crate::store::catalogue::{
     ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, BRANCH_POINT, INDEX,
     INDEX_REQUEST, OUTCOME, PERIOD, Place, SPECIAL_BRANCH, SPECIAL_KIND, SPECIAL_PERIOD,
-    SPECIAL_STABLE,
 };
 use crate::store::{Archive, CaseTable, Column as Numbers, Variable};
 use crate::study::Study;
@@ -216,7 +215,6 @@ fn special_points(
     let of_branch = numbers(archive, SPECIAL_BRANCH.name)?;
     let requests = numbers(archive, INDEX_REQUEST.name)?;
     let periods = numbers(archive, SPECIAL_PERIOD.name)?;
-    let stable = archive.variable(SPECIAL_STABLE.name)?.map_or(Vec::new(), |it| names(&it));
     let mut along: Vec<Parameter> = Vec::new();
     for branch in &study.branches {
         if !along.contains(&branch.along) {
@@ -240,9 +238,8 @@ fn special_points(
             Cell::text(value.map_or(String::new(), |it| digits(*it)))
         });
         let period = periods.get(number).map_or(String::new(), |it| it.to_string());
-        let stability = stable.get(number).map_or("", String::as_str);
         let first = [Cell::text(name), Cell::text(kind)];
-        let last = [Cell::text(period), Cell::text(stability)];
+        let last = [Cell::text(period)];
         first.into_iter().chain(values).chain(last).collect()
     });
     let left_out = match kinds.len().saturating_sub(SPECIAL_POINTS) {
@@ -252,7 +249,7 @@ fn special_points(
     let first = [Column::text("branch"), Column::text("special point")];
     let measured =
         along.iter().map(|it| Column::number(&with_unit(it.symbol(), it.dimension().unit())));
-    let last = [Column::number("period [cycles]"), Column::text("orbit there")];
+    let last = [Column::number("period [cycles]")];
     Ok(Table {
         caption: format!("Special points of the branches, in the order of the file.{left_out}"),
         columns: first.into_iter().chain(measured).chain(last).collect(),

@@ -192,10 +192,14 @@ impl Report<'_> {
 
 /// Says which figure shows what, where there are several.
 fn write_list_of_figures(page: &mut Page, drawn: &[(&Drawing, Picture)]) {
-    if drawn.len() < 2 {
-        return;
-    }
     let Item::Figure(first) = page.next_figure() else { return };
+    match drawn.len() {
+        0 => return,
+        1 => {
+            return page.text(Prose::from("The study asks for ").see(Item::Figure(first)).and("."));
+        }
+        _ => {}
+    }
     let mut text = Prose::from(format!("The study asks for {}: ", counted(drawn.len(), "figure")));
     for (place, (drawing, _)) in drawn.iter().enumerate() {
         let name = match drawing.name == drawing.kind.name() {

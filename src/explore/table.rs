@@ -6,7 +6,7 @@ use super::numbers::signed;
 /// A table of up to so many rows is not torn between pages.
 const SHORT: usize = 30;
 /// A table of more columns than this is set smaller on paper.
-const MANY: usize = 7;
+const MANY: usize = 8;
 
 /// A table with a line of headings.
 #[derive(Debug, Default)]
