@@ -127,6 +127,25 @@ pub fn as_json(all: &[Identified]) -> serde_json::Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capsule::Parameter;
+    use crate::experiment::Constant;
+
+    #[test]
+    fn a_warning_of_several_constants_is_told_once() {
+        let of = |parameter: Parameter, notes: &[&str]| Identified {
+            constant: Constant::Parameter(parameter.into()),
+            estimate: Estimate { value: 1.0, standard_error: 0.1, interval: [0.8, 1.2] },
+            verdict: Verdict::Determined,
+            method: "a method",
+            source: "decay.csv".to_owned(),
+            other: None,
+            notes: notes.iter().map(|it| (*it).to_owned()).collect(),
+        };
+        let text = table(&[of(Parameter::K1, &["both"]), of(Parameter::C, &["both", "own"])]);
+        let warnings: Vec<&str> =
+            text.lines().filter_map(|it| it.split_once("warning")).map(|it| it.1).collect();
+        assert_eq!(warnings, [" of k1, c: both", ": own"]);
+    }
 
     #[test]
     fn estimates_have_two_digits_of_their_errors_and_none_where_they_have_none() {

@@ -138,6 +138,7 @@ impl<'a> Spectra<'a> {
     fn of(view: &View<'a>) -> Result<Spectra<'a>, FigureError> {
         let cases = case_panels(view)?;
         let outputs = outputs(view.drawing, view.model());
+        view.check_signals(outputs.iter().map(String::as_str))?;
         let mut spectra = Vec::new();
         for output in &outputs {
             for panel in &cases {

@@ -93,6 +93,26 @@ impl<'a> View<'a> {
         Err(self.missing("axis", name, self.named_along()))
     }
 
+    /// Checks that each of these names is of a signal, or of a variable that the results have over time.
+    pub fn check_signals<'n>(
+        &self,
+        mut names: impl Iterator<Item = &'n str>,
+    ) -> Result<(), FigureError> {
+        let (kind, model) = (self.drawing.kind, self.model());
+        let is_over_time = |name: &str| {
+            let dimensions = self.dataset.variable(name).map(|it| &it.dimensions);
+            dimensions.is_some_and(|all| all.iter().any(|it| it == HISTORY_TIME.name))
+        };
+        match names.find(|name| model.signal(name).is_none() && !is_over_time(name)) {
+            None => Ok(()),
+            Some(name) => {
+                let known = kind.can_show(model, &[]).join(", ");
+                let kind = kind.name();
+                Err(self.unfit(format!("a {kind} cannot show `{name}`; it can show {known}")))
+            }
+        }
+    }
+
     fn missing(&self, what: &'static str, name: &str, present: Vec<String>) -> FigureError {
         let (figure, name) = (self.drawing.name.clone(), name.to_string());
         FigureError::Missing { figure, what, name, present }

@@ -111,6 +111,7 @@ mod sizes;
 mod slurm;
 mod smoothed_records;
 mod sobol_indices;
+mod spectra;
 mod store;
 mod study;
 mod text_recordings;

@@ -250,7 +250,9 @@ fn wells(p: f64, points: usize) -> (WorkDir, serde_json::Value) {
     folder.put("duffing.toml", DUFFING);
     let study = WELLS.replace("= P\n", &format!("= {p}\n")).replace("POINTS", &points.to_string());
     folder.put("wells.toml", study);
-    folder.run(&["sweep", "wells.toml", "--no-figures"]).done();
+    let ran = folder.run(&["sweep", "wells.toml", "--no-figures"]).done();
+    // It is long, and nothing else is told meanwhile.
+    assert!(ran.err.contains("their manifolds are followed"), "{}", ran.err);
     let told = folder.run(&["inspect", "results/wells/wells.h5", "--json"]).done().json();
     (folder, told["manifolds"].clone())
 }

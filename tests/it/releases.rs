@@ -61,3 +61,19 @@ fn a_mass_that_is_not_let_go_at_rest_is_fitted_later() {
     assert!(!found.from_release);
     assert!((found.by_decay[1].value / C - 1.0).abs() < 0.05, "{found:?}");
 }
+
+#[test]
+fn of_a_mass_that_creeps_to_rest_it_is_said_why_and_what_can_be_done() {
+    // Overdamped by a factor of two.
+    let gamma = 2.0 * (K1 / M1).sqrt();
+    let root = (gamma * gamma - K1 / M1).sqrt();
+    let [slow, fast] = [gamma - root, gamma + root];
+    let creep =
+        |t: f64| 2e-3 * (fast * (-slow * t).exp() - slow * (-fast * t).exp()) / (fast - slow);
+    let mut source = Noise::new(3);
+    let r: Vec<f64> = times().into_iter().map(|it| creep(it) + source.normal(1e-6)).collect();
+    let why = free_vibration(&times(), &r, M1).expect_err("no vibration");
+    for part in ["above critical", "c of 2 sqrt(k1 m1) or more", "a larger mass or less damping"] {
+        assert!(why.contains(part), "{why}");
+    }
+}

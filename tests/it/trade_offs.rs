@@ -64,6 +64,11 @@ fn a_trade_off_shows_what_was_found_between_the_cases() {
     };
     let alone = drawn();
     assert!(alone.contains(" 0 periodic motions between the cases"));
+    // The power is the cost where none is named, as for the table.
+    folder.run(&["figure", file, "--kind", "trade-off", "--formats", "svg"]).done();
+    let usual = fs::read_to_string(folder.path("results/study/trade-off.svg")).expect("a figure");
+    let about = |svg: &str| svg.split("progression_speed, power").nth(1).map(str::len);
+    assert!(about(&usual).is_some() && about(&alone).is_some(), "{usual}");
     folder.run(&["tradeoff", file, "--refine"]).done();
     let kept = fs::read_to_string(folder.path("results/study/study.searches")).expect("searches");
     let found = kept.matches("\"held_by\"").count();
