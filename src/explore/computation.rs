@@ -215,48 +215,39 @@ fn starts(study: &Study) -> impl Iterator<Item = (Coordinate, f64)> {
 
 /// How the cases are followed and judged.
 fn write_protocol(page: &mut Page, study: &Study) {
-    let Protocol { tolerance, recurrence, max_cycles, max_period, measured_cycles, .. } =
-        study.protocol;
+    let Protocol {
+        tolerance,
+        recurrence,
+        max_cycles,
+        max_period,
+        measured_cycles,
+        exponent_cycles,
+        ..
+    } = study.protocol;
     let mut settings = vec![
-        ("relative local error of a step", format!("{tolerance:e}"), ""),
+        ("relative local error of a step", format!("{tolerance:e}")),
+        ("how closely the section must repeat, relative to its size", format!("{recurrence:e}")),
         (
-            "how closely the section must repeat, relative to its size",
-            format!("{recurrence:e}"),
-            "",
-        ),
-        (
-            "cycles after which a case that has not settled is undecided",
+            "after how long a case that has not settled is undecided [cycles]",
             count(max_cycles as usize),
-            "cycles",
         ),
-        ("longest period looked for while a motion settles", count(max_period), "cycles"),
+        ("longest period looked for while a motion settles [cycles]", count(max_period)),
         (
-            "cycles over which a motion that does not repeat is measured",
+            "over how long a motion that does not repeat is measured [cycles]",
             count(measured_cycles as usize),
-            "cycles",
         ),
-        (
-            "cycles over which an exponent is computed at most",
-            count(study.protocol.exponent_cycles as usize),
-            "cycles",
-        ),
+        ("over how long an exponent is computed at most [cycles]", count(exponent_cycles as usize)),
     ];
     if study.protocol.exponents != Exponents::Largest {
-        settings.push((
-            "exponents that are computed",
-            study.protocol.exponents.name().to_owned(),
-            "",
-        ));
+        settings.push(("exponents that are computed", study.protocol.exponents.name().to_owned()));
     }
     if let Some(error) = study.protocol.mean_error {
-        settings.push(("relative standard error wanted of a mean", format!("{error:e}"), ""));
+        settings.push(("relative standard error wanted of a mean", format!("{error:e}")));
     }
-    let rows = settings
-        .into_iter()
-        .map(|(what, value, unit)| vec![Cell::text(what), Cell::text(value), Cell::text(unit)]);
+    let rows = settings.into_iter().map(|(what, value)| vec![Cell::text(what), Cell::text(value)]);
     let table = Table {
         caption: "The protocol of the cases.".to_owned(),
-        columns: vec![Column::long("setting"), Column::number("value"), Column::text("unit")],
+        columns: vec![Column::long("setting"), Column::number("value")],
         rows: rows.collect(),
     };
     page.subsection("Protocol");

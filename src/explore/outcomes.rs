@@ -10,8 +10,9 @@ use crate::campaign::CampaignError;
 use crate::campaign::count::{count, counted};
 use crate::description::Parameter;
 use crate::store::catalogue::{
-    ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, BRANCH_POINT, INDEX,
-    INDEX_REQUEST, OUTCOME, PERIOD, Place, SPECIAL_BRANCH, SPECIAL_KIND, SPECIAL_PERIOD,
+    ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, BRANCH,
+    BRANCH_POINT, INDEX, INDEX_REQUEST, OUTCOME, PERIOD, Place, SPECIAL_BRANCH, SPECIAL_KIND,
+    SPECIAL_PERIOD,
 };
 use crate::store::{Archive, CaseTable, Column as Numbers, Variable};
 use crate::study::Study;
@@ -160,7 +161,7 @@ fn write_attractors(page: &mut Page, archive: &Archive) -> Result<(), CampaignEr
         first.into_iter().chain(measured).chain(last).collect()
     });
     let first =
-        [Column::number("attractor"), Column::text("motion"), Column::number("period [cycles]")];
+        [Column::number(ATTRACTOR.name), Column::text("motion"), Column::number("period [cycles]")];
     let measured =
         outputs.iter().map(|it| Column::number(&with_unit(&called(it.quantity()), it.unit())));
     let last = [Column::number("share of the starts [%]"), Column::number("standard error [%]")];
@@ -171,7 +172,7 @@ fn write_attractors(page: &mut Page, archive: &Archive) -> Result<(), CampaignEr
     };
     let shares: Vec<String> =
         shares.iter().map(|it| format!("{}\u{a0}%", percent(100.0 * it))).collect();
-    let sentence = format!("The starts lead to {}", counted(kinds.len(), "attractor"));
+    let sentence = format!("The starts lead to {}", counted(kinds.len(), ATTRACTOR.name));
     page.sum_up(match shares.len() {
         2.. => format!("{sentence}, with shares of {} of the starts.", listed(&shares)),
         _ => format!("{sentence}."),
@@ -189,7 +190,7 @@ fn write_branches(page: &mut Page, archive: &Archive, study: &Study) -> Result<(
         return Ok(());
     }
     let kinds = archive.variable(SPECIAL_KIND.name)?.map_or(Vec::new(), |it| names(&it));
-    let plural = if branches == 1 { "branch" } else { "branches" };
+    let plural = if branches == 1 { BRANCH.name } else { "branches" };
     let sentence = format!(
         "{} periodic orbits on {} {plural} were found by continuation, with {} special points",
         count(points),
@@ -246,7 +247,7 @@ fn special_points(
         0 => String::new(),
         more => format!(" The first {SPECIAL_POINTS}; {} more are in the file.", count(more)),
     };
-    let first = [Column::text("branch"), Column::text("special point")];
+    let first = [Column::text(BRANCH.name), Column::text("special point")];
     let measured =
         along.iter().map(|it| Column::number(&with_unit(it.symbol(), it.dimension().unit())));
     let last = [Column::number("period [cycles]")];

@@ -44,16 +44,16 @@ for (const [colorScheme, width] of [["light", 1280], ["dark", 390]]) {
   }
   if (folder) await page.screenshot({ path: `${folder}/${colorScheme}.png`, fullPage: true });
 
-  // The table of the attributes by its first column, the table of the outcomes by its numbers, with the keyboard.
-  const outcomes = page.locator(".table", { hasText: "What the cases turned out to be." });
-  const button = outcomes.locator("th button").nth(1);
+  // The table of what is held by its numbers, with the keyboard.
+  const held = page.locator(".table", { hasText: "What is held." });
+  const button = held.locator("th button").nth(3);
   view.orders = [];
   for (let press = 0; press < 4; press++) {
-    view.orders.push([await outcomes.locator("thead th").nth(1).getAttribute("aria-sort"), await column(outcomes, 1)]);
+    view.orders.push([await held.locator("thead th").nth(3).getAttribute("aria-sort"), await column(held, 3)]);
     await button.focus();
     await page.keyboard.press("Enter");
   }
-  await outcomes.locator(".copy").click();
+  await held.locator(".copy").click();
   await page.waitForFunction(() => window.copied !== undefined);
   view.copied = await page.evaluate(() => window.copied);
   view.said = await page.locator("[role=status]").textContent();

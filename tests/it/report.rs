@@ -171,9 +171,9 @@ fn a_report_in_a_browser_sorts_copies_prints_and_fits_narrow_screens() {
         // Tab-separated, with the line of headings.
         let copied = view["copied"].as_str().expect("a text");
         let lines: Vec<Vec<&str>> = copied.lines().map(|it| it.split('\t').collect()).collect();
-        assert_eq!(lines[0], ["outcome", "cases", "share [%]"], "{copied}");
+        assert_eq!(lines[0], ["name", "symbol", "meaning", "value", "unit"], "{copied}");
         assert_eq!(lines.len(), numbers(1).len() + 1);
-        assert!(lines[1..].iter().all(|it| it[1].parse::<usize>().is_ok()), "{copied}");
+        assert!(lines[1..].iter().all(|it| it[3].parse::<f64>().is_ok()), "{copied}");
         assert!(view["said"].as_str().is_some_and(|it| it.ends_with(": copied")), "{view}");
     }
 }
