@@ -107,7 +107,7 @@ fn of_turns(times: &[f64], r: &[f64], m1: f64, turns: &Turns) -> Result<FreeVibr
     Ok(FreeVibration {
         by_decrement: Some(by_decrement),
         turns: turns.times.len(),
-        ..model.from_release(&fit, [times, r], first)
+        ..model.with_release(&fit, [times, r], first)
     })
 }
 
@@ -129,7 +129,7 @@ fn of_swing(times: &[f64], r: &[f64], m1: f64, swing: &Swing) -> Result<FreeVibr
         found = fit.filter(|it| it.sum_of_squares < best).or(found);
     }
     let fit = found.ok_or(NO_DECAY)?;
-    Ok(model.from_release(&fit, [times, r], first))
+    Ok(model.with_release(&fit, [times, r], first))
 }
 
 /// Whether the decay with these parameters passes its rest position again and again.
@@ -162,7 +162,7 @@ impl Decay<'_> {
     }
 
     /// What the fit of a whole record tells, if it describes it, and else that of its part from the sample `first` on.
-    fn from_release(&self, later: &Fit, [times, r]: [&[f64]; 2], first: usize) -> FreeVibration {
+    fn with_release(&self, later: &Fit, [times, r]: [&[f64]; 2], first: usize) -> FreeVibration {
         let known = Later { fit: later, first };
         let told = self.told(later);
         let Some(Released { fit, amplitudes }) = released(times, r, self.m1, known) else {
