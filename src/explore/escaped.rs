@@ -1,8 +1,24 @@
 //! Text as HTML: what HTML reads otherwise, and symbols with italics and scripts.
 
+use super::numbers::signed;
+
 /// Text with the characters that HTML reads otherwise replaced.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A sentence as HTML: what stands between backticks is code, and numbers have minus signs.
+pub fn sentence(text: &str) -> String {
+    let parts: Vec<&str> = text.split('`').collect();
+    if parts.len().is_multiple_of(2) {
+        // A backtick without a second one is a backtick.
+        return escaped(&signed(text));
+    }
+    let written = parts.iter().enumerate().map(|(place, part)| match place % 2 {
+        0 => escaped(&signed(part)),
+        _ => format!("<code>{}</code>", escaped(part)),
+    });
+    written.collect()
 }
 
 /// A symbol in the markup of labels, `*x*_{1}`: stars for italics, braces for scripts.
@@ -37,7 +53,13 @@ pub fn symbol(markup: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::symbol;
+    use super::{sentence, symbol};
+
+    #[test]
+    fn what_stands_between_backticks_is_code() {
+        assert_eq!(sentence("by `a < -1` at -1"), "by <code>a &lt; -1</code> at \u{2212}1");
+        assert_eq!(sentence("a ` b"), "a ` b");
+    }
 
     #[test]
     fn symbols_have_italics_and_scripts() {

@@ -5,8 +5,7 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::escaped::escaped;
-use super::numbers::signed;
+use super::escaped::{escaped, sentence};
 use super::table::Table;
 use crate::figure::Picture;
 
@@ -53,7 +52,7 @@ pub struct Prose(String);
 impl Prose {
     /// A paragraph that goes on with a text.
     pub fn and(self, text: &str) -> Prose {
-        Prose(self.0 + &escaped(&signed(text)))
+        Prose(self.0 + &sentence(text))
     }
 
     /// A paragraph that goes on with a reference.
@@ -131,7 +130,7 @@ impl Page {
 
     /// A paragraph of less weight.
     pub fn note(&mut self, text: &str) {
-        let _ = writeln!(self.body, "<p class=\"note\">{}</p>", escaped(text));
+        let _ = writeln!(self.body, "<p class=\"note\">{}</p>", sentence(text));
     }
 
     /// Text as it is, with its lines.
@@ -155,7 +154,7 @@ impl Page {
         self.tables += 1;
         let item = Item::Table(self.tables);
         let (anchor, name) = (item.anchor(), item.name());
-        let (class, caption, content) = (table.class(), escaped(&table.caption), table.html());
+        let (class, caption, content) = (table.class(), sentence(&table.caption), table.html());
         let _ = writeln!(
             self.body,
             "<div class=\"{class}\" id=\"{anchor}\">\n<div class=\"head\"><p class=\"caption\" id=\"{anchor}-caption\"><b>{name}.</b> \
@@ -182,7 +181,7 @@ impl Page {
         let _ = writeln!(
             self.body,
             "</div>\n<figcaption><b>{name}.</b> {}</figcaption>\n</figure>",
-            escaped(&signed(caption))
+            sentence(caption)
         );
     }
 
@@ -190,7 +189,7 @@ impl Page {
     pub fn finish(self, title: &str, facts: &[(&str, String)]) -> String {
         let title = escaped(title);
         let (facts, contents) = (listed(facts), self.contents());
-        let in_short = escaped(&signed(&self.in_short.join(" ")));
+        let in_short = sentence(&self.in_short.join(" "));
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n{GENERATOR}\n<title>{title}</title>\n\

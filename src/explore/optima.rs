@@ -91,7 +91,8 @@ fn phrase(name: &str) -> String {
     });
     let first = words.next().unwrap_or_default();
     let others: Vec<String> = words.collect();
-    let more = if others.is_empty() { String::new() } else { format!(", {}", listed(&others)) };
+    let more =
+        if others.is_empty() { String::new() } else { format!(" (also {})", listed(&others)) };
     match first.as_str() {
         "fastest" => format!("fastest motion{more}"),
         place => format!("motion {place}{more}"),
@@ -209,12 +210,12 @@ fn front_in_words(answer: &Answer) -> String {
         }
     };
     format!(
-        "The Pareto front of {} ({}) and {}{condition} has {} motions, {between} of them between the cases.{searched}{left_out} \
+        "The Pareto front of {} ({}) and {}{condition} has {}, {between} of them between the cases.{searched}{left_out} \
          {without}",
         gain_in_words(of),
         answer.direction.name(),
         called(of.cost.quantity()),
-        answer.front.len()
+        counted(answer.front.len(), "motion")
     )
 }
 
