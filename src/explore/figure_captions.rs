@@ -7,6 +7,15 @@ use crate::figure::Picture;
 use crate::store::catalogue::{DIRECTION, named};
 use crate::study::{Coordinate, Drawing, DrawingKind};
 
+/// What a figure is called in a sentence.
+pub fn mention(drawing: &Drawing) -> String {
+    let kind = lower(&kind(drawing.kind));
+    match drawing.name == drawing.kind.name() {
+        true => kind,
+        false => format!("{kind} \u{201c}{}\u{201d}", drawing.name),
+    }
+}
+
 /// The caption of a figure of a study, and its notes, a sentence each.
 pub fn caption(drawing: &Drawing, picture: &Picture, model: &'static Description) -> String {
     let kind = kind(drawing.kind);
@@ -23,11 +32,13 @@ pub fn caption(drawing: &Drawing, picture: &Picture, model: &'static Description
 
 /// What a kind of figure is called.
 pub fn kind(kind: DrawingKind) -> String {
-    let words = kind.name().replace('-', " ");
     let words = match kind {
-        DrawingKind::Bifurcation => format!("{words} diagram"),
-        DrawingKind::Basin => format!("{words}s of attraction"),
-        _ => words,
+        DrawingKind::Bifurcation => format!("{} diagram", kind.name()),
+        DrawingKind::Basin => format!("{}s of attraction", kind.name()),
+        // The word of the field has its hyphen.
+        DrawingKind::TradeOff => kind.name().to_owned(),
+        DrawingKind::TradeOffMaps => format!("maps of the {}", DrawingKind::TradeOff.name()),
+        _ => kind.name().replace('-', " "),
     };
     let mut letters = words.chars();
     let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
@@ -104,7 +115,9 @@ mod tests {
         assert_eq!(seen(about, true, model), words);
         let words = "attractor that the case ends on over relative displacement at the start (start_r): 2 at 3 %; more";
         assert_eq!(seen("attractor over start_r: 2 at 3 %; more", false, model), words);
-        assert_eq!(kind(DrawingKind::PhasePortrait), "Phase portrait");
+        let kinds =
+            [DrawingKind::PhasePortrait, DrawingKind::TradeOff, DrawingKind::Basin].map(kind);
+        assert_eq!(kinds, ["Phase portrait", "Trade-off", "Basins of attraction"]);
         assert_eq!(
             sentence("special points that are not marked: 3."),
             " Special points that are not marked: 3."

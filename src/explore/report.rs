@@ -1,7 +1,7 @@
 //! The report of a file of results: one page with what was computed, what came of it, and how to compute it again.
 
 use super::computation::write_computation;
-use super::figure_captions::{caption, kind};
+use super::figure_captions::{caption, mention};
 use super::html::{Item, Page, Prose};
 use super::optima::{gain_in_words, write_optima};
 use super::outcomes::write_outcomes;
@@ -202,10 +202,7 @@ fn write_list_of_figures(page: &mut Page, drawn: &[(&Drawing, Picture)]) {
     }
     let mut text = Prose::from(format!("The study asks for {}: ", counted(drawn.len(), "figure")));
     for (place, (drawing, _)) in drawn.iter().enumerate() {
-        let name = match drawing.name == drawing.kind.name() {
-            true => kind(drawing.kind),
-            false => drawing.name.clone(),
-        };
+        let name = mention(drawing);
         let end = if place + 1 < drawn.len() { ", " } else { "." };
         text =
             text.and(&format!("{name} (")).see(Item::Figure(first + place)).and(&format!("){end}"));

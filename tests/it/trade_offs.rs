@@ -6,7 +6,7 @@ use capsulemap::figure::{Format, draw};
 use capsulemap::study::{Drawing, DrawingKind};
 
 use super::figure::fixtures::{Fixture, OUTCOMES, plane, steps};
-use super::figure::{drawing, folder, into};
+use super::figure::{by_work, drawing, folder, into};
 use super::program::WorkDir;
 
 /// A trade-off over motions with these speeds [m/s] and outcomes.
@@ -18,7 +18,7 @@ fn trade_off(speeds: &[f64], outcomes: &[i64]) -> String {
         .real("progression_speed", &["omega"], move |at| speeds[at[0]])
         .integer("outcome", &["omega"], &OUTCOMES, move |at| outcomes[at[0]])
         .0;
-    let request = drawing("directions", DrawingKind::TradeOff);
+    let request = by_work("directions");
     let paths =
         draw(&dataset, &request, &into(&folder("directions"), &[Format::Svg])).unwrap().paths;
     fs::read_to_string(&paths[0]).unwrap()
