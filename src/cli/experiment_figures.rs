@@ -266,7 +266,7 @@ fn residual_panel(of: &PlotPanel) -> Option<PlotPanel> {
         series("recorded less simulated", Look::Record, left),
         series("", Look::Reference, ends.map(|t| (t, 0.0)).to_vec()),
     ];
-    Some(panel(&of.x, &of.y, all))
+    Some(panel(&of.x, &format!("Residual of {}", of.y), all))
 }
 
 /// Notes in the first panel how many of all cycles are shown.
