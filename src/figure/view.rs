@@ -98,6 +98,10 @@ impl<'a> View<'a> {
         &self,
         mut names: impl Iterator<Item = &'n str>,
     ) -> Result<(), FigureError> {
+        // Where there are none at all, that is what is to be told.
+        if self.coordinate_values(HISTORY_TIME.name).is_empty() {
+            return Ok(());
+        }
         let (kind, model) = (self.drawing.kind, self.model());
         let is_over_time = |name: &str| {
             let dimensions = self.dataset.variable(name).map(|it| &it.dimensions);
