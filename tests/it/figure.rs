@@ -83,7 +83,7 @@ fn the_same_results_give_the_same_bytes() {
     let single = with_history(Fixture::default().real("omega", &[], |_| 20.73), &[], 4.0, 500).0;
     let [first, second] = drawn_twice(&single, &drawing("a", DrawingKind::PhasePortrait), "same");
     assert!(first == second);
-    let [first, second] = drawn_twice(&plane(31, 21), &drawing("b", DrawingKind::TradeOff), "same");
+    let [first, second] = drawn_twice(&plane(31, 21), &by_work("b"), "same");
     assert!(first == second);
     let cloud = cascade(400, 60, false);
     let [first, second] = drawn_twice(&cloud, &drawing("c", DrawingKind::Bifurcation), "same");
