@@ -92,9 +92,10 @@ pub fn front(answer: &Answer, moving: &str) -> Table {
         ..=FRONT => all.clone(),
         many => (0..FRONT).map(|it| all[it * (many - 1) / (FRONT - 1)]).collect(),
     };
+    let refine = if answer.refined.is_some() { " --refine" } else { "" };
     let how_many = match all.len() > FRONT {
         true => format!(
-            " {FRONT} of its {} motions, the first and the last among them; `capsulemap tradeoff --csv` lists all.",
+            " {FRONT} of its {} motions, the first and the last among them; `capsulemap tradeoff{refine} --csv` lists all.",
             count(all.len())
         ),
         false => String::new(),
