@@ -27,7 +27,7 @@ pub fn results_in_memory(
     if has_attractors(study) {
         let motions = run::final_motions(study, records);
         let attractors = run::attractors(study, &motions, machine, || ())?;
-        let table = run::attractor_table(study, &attractors, &motions, machine)?;
+        let table = run::attractor_table(study, &attractors, &motions, machine, |_| ())?;
         add_attractors(&mut results, study, &attractors, &table);
     }
     Ok(results)

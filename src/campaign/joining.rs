@@ -75,14 +75,20 @@ impl Joining<'_> {
         let states = blocks.final_motions()?;
         let attractors =
             run::attractors(self.study, &states, self.machine, || reports.step(Stage::Linking))?;
-        let mut table = run::attractor_table(self.study, &attractors, &states, self.machine)?;
+        reports.send(Event::Ended(Stage::Linking))?;
+        // A request to stop takes effect below, as for every stage that cannot be interrupted.
+        let begins = |saddles| {
+            let _ = reports.note(Event::Begun(Stage::Tracing, saddles));
+        };
+        let mut table =
+            run::attractor_table(self.study, &attractors, &states, self.machine, begins)?;
         drop(states);
         // Those of a refined study that are followed lie near the boundaries, and take longer than the others would.
         if !table.rows.is_empty() && self.study.refine.is_none() {
             let cycles = blocks.verdicts()?.into_iter().map(|(case, _, cycles)| (case, cycles));
             table.note_cycles(&attractors, cycles);
         }
-        reports.send(Event::Ended(Stage::Linking))?;
+        reports.send(Event::Ended(Stage::Tracing))?;
         add_attractors(frame, self.study, &attractors, &table);
         Ok(())
     }

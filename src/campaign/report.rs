@@ -143,6 +143,8 @@ pub enum Stage {
     Drawing,
     /// The parameters of motions are followed to where these end; a step is a parameter that falls or rises.
     Bounding,
+    /// The manifolds of so many saddles are followed, in one step.
+    Tracing,
 }
 
 /// The blocks of a task before it begins.

@@ -53,7 +53,7 @@ pub(super) fn search_seconds(
 fn seconds(study: &Study, motions: &FinalMotions, machine: Machine) -> Result<f64, RunError> {
     let begun = Instant::now();
     let attractors = attractors(study, motions, machine, || ())?;
-    attractor_table(study, &attractors, motions, machine)?;
+    attractor_table(study, &attractors, motions, machine, |_| ())?;
     Ok(begun.elapsed().as_secs_f64())
 }
 

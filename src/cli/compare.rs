@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::asked_case::{Takes, asked_case};
 use super::compare_report::{as_json, explained, told_of};
-use super::experiment_figures::{comparison_plot, text_comparison_plot};
+use super::experiment_figures::{AskedPlot, comparison_plot, text_comparison_plot};
 use super::failure::Failure;
 use super::recording_form::RecordingForm;
 use super::terminal::print;
@@ -27,6 +27,7 @@ const EXAMPLES: &str = "\
 Examples:
   capsulemap compare rig/motion.csv studies/fig5.toml --output rig/comparison
   capsulemap compare rig/motion.csv studies/fig6.toml --explain \"k2=5 kN/m..30 kN/m\" --explain mu_s=0.2..0.8,mu_d=0.1..0.4
+  capsulemap compare rig/motion.csv studies/fig5.toml --output rig/residuals --residuals
   capsulemap compare wall.csv wall.toml
 
 A recording is a CSV file with a column t and any of x2, r, x1, y1, y2, a1, drive, current, with their units. drive or current \
@@ -79,6 +80,9 @@ pub struct Compare {
     /// Cycles of the drive that the overlay shows.
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..))]
     cycles: u64,
+    /// Draw what is recorded less what is simulated below each signal of the overlay, too.
+    #[arg(long, requires = "output")]
+    residuals: bool,
     /// Replace files that are there.
     #[arg(long)]
     overwrite: bool,
@@ -115,8 +119,7 @@ impl Compare {
             .map_err(|why| Failure::of_file(&self.recording, why))?;
         let mut paths = Vec::new();
         if let Some(output) = &self.output {
-            let plot = |name: &str| comparison_plot(name, &comparison, &self.about(), self.cycles);
-            paths = self.draw(plot, output)?;
+            paths = self.draw(|asked| comparison_plot(asked, &comparison), output)?;
         }
         let left_out = left_out(&recording);
         if self.json {
@@ -147,9 +150,7 @@ impl Compare {
         let comparison = compare_text(&recording, &record, case, protocol).map_err(of_file)?;
         let mut paths = Vec::new();
         if let Some(output) = &self.output {
-            let about = self.about();
-            let plot = |name: &str| text_comparison_plot(name, &comparison, &about, self.cycles);
-            paths = self.draw(plot, output)?;
+            paths = self.draw(|asked| text_comparison_plot(asked, &comparison), output)?;
         }
         if self.json {
             return print(&format!("{:#}\n", text_compare::as_json(&comparison, &doubts)));
@@ -173,7 +174,7 @@ impl Compare {
     /// Draws the overlay, which is called after its file.
     fn draw(
         &self,
-        plot: impl Fn(&str) -> Plot,
+        plot: impl Fn(&AskedPlot<'_>) -> Plot,
         output: &std::path::Path,
     ) -> Result<Vec<PathBuf>, Failure> {
         let folder = crate::store::folder(output);
@@ -190,7 +191,9 @@ impl Compare {
         };
         let place =
             Place { folder, formats: &[Format::Png, Format::Pdf], overwrite: self.overwrite };
-        let files = draw_plot(&plot(&name), &place).map_err(Failure::request)?;
+        let (about, cycles, residuals) = (&self.about(), self.cycles, self.residuals);
+        let asked = AskedPlot { name: &name, about, cycles, residuals };
+        let files = draw_plot(&plot(&asked), &place).map_err(Failure::request)?;
         Ok(files.paths)
     }
 }

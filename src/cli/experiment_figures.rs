@@ -77,7 +77,10 @@ pub fn evidence_plot(
 fn decay_plot(test: Test, recording: &Recording, decay: &FreeVibration, given: &Given) -> Plot {
     let (t, r) = (recording.required("t"), recording.required("r"));
     let model: Vec<f64> = t.iter().map(|time| decay.decay(given.m1, *time)).collect();
-    let from = t.partition_point(|time| *time < decay.begins);
+    let from = match decay.from_release {
+        true => 0,
+        false => t.partition_point(|time| *time < decay.begins),
+    };
     let left: Vec<f64> = r.iter().zip(&model).map(|(r, model)| r - model).collect();
     let fitted = scaled(&t[from..], &model[from..], [1.0, 1e3]);
     let left = scaled(&t[from..], &left[from..], [1.0, 1e3]);
@@ -208,16 +211,62 @@ fn broken(points: Vec<(f64, f64)>, sampling: &Sampling) -> Vec<(f64, f64)> {
 /// A comparison in the style of the paper's Figs 5 to 7: a panel for each signal, recorded and simulated.
 ///
 /// So many cycles of the drive are shown, which a note says where the record has more.
-pub fn comparison_plot(name: &str, comparison: &Comparison, about: &str, cycles: u64) -> Plot {
-    let span = cycles as f64 * comparison.motion.parameters.drive_period();
+pub fn comparison_plot(asked: &AskedPlot<'_>, comparison: &Comparison) -> Plot {
+    let span = asked.cycles as f64 * comparison.motion.parameters.drive_period();
     let count = comparison.times.partition_point(|time| *time <= span);
     let is_cut = count < comparison.times.len();
-    let mut rows: Vec<Vec<PlotPanel>> =
-        comparison.differences.iter().map(|it| vec![signal_panel(it, comparison, count)]).collect();
+    let panels = comparison.differences.iter().map(|it| signal_panel(it, comparison, count));
+    let mut rows = asked.rows(panels);
     if is_cut {
-        note_cut(&mut rows, cycles, comparison.cycles);
+        note_cut(&mut rows, asked.cycles, comparison.cycles);
     }
-    Plot { name: name.to_owned(), about: about.to_owned(), rows, height: 0.8 * HEIGHT }
+    asked.plot(rows)
+}
+
+/// What is asked of the picture of a comparison.
+pub struct AskedPlot<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// What it shows, in a sentence.
+    pub about: &'a str,
+    /// Cycles of the drive that are shown.
+    pub cycles: u64,
+    /// Whether what is recorded less what is simulated stands below each signal.
+    pub residuals: bool,
+}
+
+impl AskedPlot<'_> {
+    /// A row for each panel of a signal, and one for its residuals, if they are asked for.
+    fn rows(&self, panels: impl Iterator<Item = PlotPanel>) -> Vec<Vec<PlotPanel>> {
+        let rows = panels.flat_map(|panel| {
+            let residuals = self.residuals.then(|| residual_panel(&panel)).flatten();
+            [panel].into_iter().chain(residuals).map(|it| vec![it])
+        });
+        rows.collect()
+    }
+
+    fn plot(&self, rows: Vec<Vec<PlotPanel>>) -> Plot {
+        let more = if self.residuals { ", with the differences below each signal" } else { "" };
+        Plot {
+            name: self.name.to_owned(),
+            about: format!("{}{more}", self.about),
+            rows,
+            height: 0.8 * HEIGHT,
+        }
+    }
+}
+
+/// What is recorded less what is simulated, of a panel that has both first.
+fn residual_panel(of: &PlotPanel) -> Option<PlotPanel> {
+    let [recorded, simulated, ..] = &of.series[..] else { return None };
+    let both = recorded.points.iter().zip(&simulated.points);
+    let left: Vec<(f64, f64)> = both.map(|(it, model)| (it.0, it.1 - model.1)).collect();
+    let ends = [left.first()?.0, left.last()?.0];
+    let all = vec![
+        series("recorded less simulated", Look::Record, left),
+        series("", Look::Reference, ends.map(|t| (t, 0.0)).to_vec()),
+    ];
+    Some(panel(&of.x, &format!("Residual of {}", of.y), all))
 }
 
 /// Notes in the first panel how many of all cycles are shown.
@@ -229,16 +278,14 @@ fn note_cut(rows: &mut [Vec<PlotPanel>], cycles: u64, all: f64) {
 }
 
 /// A comparison with an oscillator given as text: a panel for each recorded state, recorded and simulated, over so many cycles.
-pub fn text_comparison_plot(name: &str, it: &TextComparison, about: &str, cycles: u64) -> Plot {
-    let span = cycles as f64 * it.cycle;
+pub fn text_comparison_plot(asked: &AskedPlot<'_>, it: &TextComparison) -> Plot {
+    let span = asked.cycles as f64 * it.cycle;
     let count = it.times.partition_point(|time| *time <= span);
-    let differences = it.differences.iter();
-    let mut rows: Vec<Vec<PlotPanel>> =
-        differences.map(|state| vec![state_panel(state, it, count)]).collect();
+    let mut rows = asked.rows(it.differences.iter().map(|state| state_panel(state, it, count)));
     if count < it.times.len() {
-        note_cut(&mut rows, cycles, it.times[it.times.len() - 1] / it.cycle);
+        note_cut(&mut rows, asked.cycles, it.times[it.times.len() - 1] / it.cycle);
     }
-    Plot { name: name.to_owned(), about: about.to_owned(), rows, height: 0.8 * HEIGHT }
+    asked.plot(rows)
 }
 
 /// A state, recorded and simulated, over so many samples.

@@ -39,7 +39,7 @@ pub struct Figure {
     /// Kind of figure; without it, the figures of the study are drawn.
     #[arg(long, value_parser = named(DrawingKind::NAMES))]
     kind: Option<DrawingKind>,
-    /// Outputs to draw; of a trade-off the cost, then the gain.
+    /// Outputs to draw; of a trade-off the cost, then the gain, of the capsule by default the power and the progression speed.
     #[arg(long, value_delimiter = ',', requires = "kind")]
     of: Vec<String>,
     /// Axis along the abscissa, or what varies along a path.
@@ -293,8 +293,8 @@ fn measured(path: &Path, archive: &Archive) -> Result<Measured, Failure> {
     let recording = files::recording(path, &[&known[..], &errors[..]].concat(), 1)?;
     let mut columns = Vec::new();
     for Column { name, .. } in known {
-        let values = recording.whole(name).map_err(|why| Failure::of_file(path, why))?;
-        columns.extend(values.map(|it| (name.to_owned(), it.to_vec())));
+        // A point without a value is left out of the figure, which says so.
+        columns.extend(recording.filled(name).map(|it| (name.to_owned(), it)));
     }
     // A point may have no error.
     for Column { name, .. } in errors {

@@ -42,7 +42,8 @@ A study whose omega is not that of the recorded drive is refused. Intervals are 
 within its bounds is called one-sided or not determined. The misfit is the standard deviation of the residuals over the noise, which is \
 that of the third differences of the residuals. Outliers are samples more than five times the noise from the fit; with --robust they count \
 little, errors and intervals are scaled by Huber's formula for such fits, and the \
-misfit is that of the others, by the median.
+misfit is that of the others, by the median. `capsulemap compare --residuals` with a study of the fitted values draws the recording \
+beside the motion that the case settles to, and what is left.
 
 The study may be of an oscillator given as text (capsulemap help book systems). Then a recording has a column t and columns that are called \
 as states, one at least, with their units as \"x [m]\"; a state whose unit is 1 has none, and where all are such, t has none. The drive \

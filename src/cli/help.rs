@@ -7,6 +7,7 @@ use super::failure::Failure;
 use super::terminal::print;
 use crate::quantity::Dimension;
 use crate::quantity::units::expectation;
+use crate::study::document::nearest;
 
 const EXAMPLES: &str = "\
 study, output, unit and book without a name list what there is.
@@ -51,7 +52,12 @@ impl Help {
                     let called = format!("capsulemap {}", found.get_name());
                     print(&found.clone().bin_name(called).render_long_help().to_string())
                 }
-                None => Err(unknown("topic", command, "a command, study, output, unit or book")),
+                None => {
+                    let commands = program.get_subcommands().map(Command::get_name);
+                    let known = commands.chain(["study", "output", "unit", "book"]);
+                    let allowed = "a command, study, output, unit or book";
+                    Err(unknown("topic", command, known, allowed))
+                }
             },
             _ => Err(Failure::request(format!(
                 "help of \"{}\": one topic at a time; capsulemap help help shows how",
@@ -61,9 +67,18 @@ impl Help {
     }
 }
 
-/// The failure of a name that is not known.
-fn unknown(what: &str, name: &str, allowed: &str) -> Failure {
-    Failure::request(format!("unknown {what} \"{name}\" (allowed: {allowed})"))
+/// The failure of a name that is not among those that are known.
+fn unknown<'n>(
+    what: &str,
+    name: &str,
+    known: impl Iterator<Item = &'n str>,
+    allowed: &str,
+) -> Failure {
+    let hint = match nearest(name, known) {
+        Some(other) => format!("; did you mean \"{other}\"?"),
+        None => String::new(),
+    };
+    Failure::request(format!("unknown {what} \"{name}\"{hint} (allowed: {allowed})"))
 }
 
 /// The tables of a study with their keys.
@@ -99,7 +114,15 @@ fn of_key(name: &str) -> Result<String, Failure> {
     match book::of_studies().find(|page| page.name == bare || page.name == format!("study/{bare}"))
     {
         Some(page) => Ok(page.plain()),
-        None => Err(unknown("key or table of a study", name, "capsulemap help study lists them")),
+        None => {
+            let keys = keys();
+            let names = keys.iter().flat_map(|row| row.names.iter().copied());
+            let tables = book::of_studies().map(|page| page.name.trim_start_matches("study/"));
+            // Of a key with its table the key is compared.
+            let meant = if table.is_some() { key } else { bare };
+            let what = "key or table of a study";
+            Err(unknown(what, meant, names.chain(tables), "capsulemap help study lists them"))
+        }
     }
 }
 
@@ -145,12 +168,14 @@ fn all_outputs() -> String {
 
 /// How an output is defined.
 fn of_output(name: &str) -> Result<String, Failure> {
+    let outputs = outputs();
     let found: Vec<String> =
-        outputs().iter().filter(|row| row.names.contains(&name)).map(told).collect();
-    match found.is_empty() {
-        false => Ok(found.join("\n")),
-        true => Err(unknown("output", name, "capsulemap help output lists those of the capsule")),
+        outputs.iter().filter(|row| row.names.contains(&name)).map(told).collect();
+    if !found.is_empty() {
+        return Ok(found.join("\n"));
     }
+    let known = outputs.iter().flat_map(|row| row.names.iter().copied());
+    Err(unknown("output", name, known, "capsulemap help output lists those of the capsule"))
 }
 
 /// The units of each dimension.
@@ -169,6 +194,9 @@ fn contents() -> String {
 
 fn of_page(name: &str) -> Result<String, Failure> {
     let page = book::page(name);
-    page.map(book::Page::plain)
-        .ok_or_else(|| unknown("page", name, "capsulemap help book lists them"))
+    page.map(book::Page::plain).ok_or_else(|| {
+        let folders = book::PAGES.iter().map(|it| it.name);
+        let known = folders.clone().filter_map(|it| it.rsplit('/').next()).chain(folders);
+        unknown("page", name, known, "capsulemap help book lists them")
+    })
 }

@@ -79,7 +79,18 @@ pub fn table(all: &[Identified]) -> String {
             text += &format!("{:<15}{}\n", "", it.verdict);
         }
         for note in &it.notes {
-            text += &format!("{:<15}warning: {note}\n", "");
+            let having: Vec<&Identified> = all
+                .iter()
+                .filter(|other| other.source == it.source && other.notes.contains(note))
+                .collect();
+            // A note of several constants is told once, with the first of them.
+            if having.first().is_none_or(|first| first.constant != it.constant) {
+                continue;
+            }
+            let names: Vec<&str> = having.iter().map(|it| it.constant.symbol()).collect();
+            let of =
+                if names.len() > 1 { format!(" of {}", names.join(", ")) } else { String::new() };
+            text += &format!("{:<15}warning{of}: {note}\n", "");
         }
     }
     text
@@ -116,6 +127,25 @@ pub fn as_json(all: &[Identified]) -> serde_json::Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capsule::Parameter;
+    use crate::experiment::Constant;
+
+    #[test]
+    fn a_warning_of_several_constants_is_told_once() {
+        let of = |parameter: Parameter, notes: &[&str]| Identified {
+            constant: Constant::Parameter(parameter.into()),
+            estimate: Estimate { value: 1.0, standard_error: 0.1, interval: [0.8, 1.2] },
+            verdict: Verdict::Determined,
+            method: "a method",
+            source: "decay.csv".to_owned(),
+            other: None,
+            notes: notes.iter().map(|it| (*it).to_owned()).collect(),
+        };
+        let text = table(&[of(Parameter::K1, &["both"]), of(Parameter::C, &["both", "own"])]);
+        let warnings: Vec<&str> =
+            text.lines().filter_map(|it| it.split_once("warning")).map(|it| it.1).collect();
+        assert_eq!(warnings, [" of k1, c: both", ": own"]);
+    }
 
     #[test]
     fn estimates_have_two_digits_of_their_errors_and_none_where_they_have_none() {

@@ -18,8 +18,9 @@ Examples:
   capsulemap report FILE.h5 --of work_positive --output for-a-colleague.html
   capsulemap report FILE.h5 --of work --for amplitude
 
-The page has the optima with their motions, the figures of the study, the study, where the results come from and how to \
-compute them again. It needs no network and no other file. Motions between the cases are those that `capsulemap tradeoff \
+The page is in the order of a paper's supplement: abstract, contents, what was computed, outcomes, figures of the study, optima with \
+their motions, how to compute all of it again, provenance and citation. Its tables sort and can be copied, and it prints on A4. \
+It needs no network and no other file. Motions between the cases are those that `capsulemap tradeoff \
 --refine` has found.";
 
 /// Write what a file of results says as one HTML page.

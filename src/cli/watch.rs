@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 use super::block_progress::BlockProgress;
 use super::claim_text::{claimed, taken_over};
 use super::failure::Failure;
-use super::progress::Progress;
+use super::progress::{Progress, Steps};
 use super::readable::{blocks_kept, count, counted, time};
 use super::stop::say_when_stopped;
 use super::summary::summary;
@@ -147,15 +147,23 @@ impl<'a> Watch<'a> {
 
 /// Progress of each stage, once it has begun.
 #[derive(Default)]
-pub struct Stages([OnceLock<Progress>; 11]);
+pub struct Stages([OnceLock<Progress>; 12]);
 
 impl Stages {
     /// Shows the events of stages, and no others.
     pub fn show(&self, event: Event<'_>) {
         let Stages(all) = self;
         match event {
+            Event::Begun(Stage::Tracing, saddles) => notify(&format!(
+                "{}: their manifolds are followed, which may take a minute",
+                counted(saddles, "saddle")
+            )),
             Event::Begun(stage, steps) => {
-                all[stage as usize].get_or_init(|| Progress::new(steps, what(stage)));
+                let count = match stage {
+                    Stage::Outlining => Steps::AtMost,
+                    _ => Steps::All,
+                };
+                all[stage as usize].get_or_init(|| Progress::new(steps, what(stage), count));
             }
             Event::Step(stage) => all[stage as usize].get().into_iter().for_each(Progress::step),
             Event::Ended(stage) => drop(all[stage as usize].get().map(Progress::finish)),
@@ -178,5 +186,6 @@ fn what(stage: Stage) -> &'static str {
         Stage::Following => "gaps of the front",
         Stage::Drawing => "motions under tolerances",
         Stage::Bounding => "margins",
+        Stage::Tracing => "manifolds",
     }
 }

@@ -3,6 +3,7 @@
 use super::estimate::{Estimate, chance_of_ratio};
 use super::least_squares::{Fit, Model, Residuals, Search, fit};
 use super::noise::noise;
+use super::release::{Later, Released, released};
 use super::turning_points::{Clear, Swing, Turns, turning_points};
 
 /// The least error of a turning point, as a share of the largest: that of reading it between samples.
@@ -20,8 +21,10 @@ const NO_DECAY: &str = "no decay that oscillates can be fitted";
 pub struct FreeVibration {
     /// Stiffness and damping by the times and heights of the turning points [N/m, N s/m]; none where these are fewer than three.
     pub by_decrement: Option<[Estimate; 2]>,
-    /// The same by least squares on the decay, from where the mass first passes its rest position.
+    /// The same by least squares on the decay, from its release on or from where the mass first passes its rest position.
     pub by_decay: [Estimate; 2],
+    /// Whether the record is that of a mass which is let go at rest, and was fitted from there on.
+    pub from_release: bool,
     /// Where the mass comes to rest [m].
     pub rest: f64,
     /// Scatter of the record about the fitted decay [m].
@@ -37,16 +40,16 @@ pub struct FreeVibration {
 }
 
 impl FreeVibration {
-    /// The fitted decay at `time` of the record [m].
+    /// The fitted decay at `time` of the record [m]; before the mass is let go it is held.
     pub fn decay(&self, m1: f64, time: f64) -> f64 {
+        let time = if self.from_release { time.max(self.begins) } else { time };
         let [k1, c] = self.by_decay.map(|it| it.value);
         let parameters = [k1, c, self.amplitudes[0], self.amplitudes[1], self.rest];
         decay(m1, &parameters, time - self.begins).0
     }
 
-    /// How far the first method's stiffness and damping lie above the second's, in standard errors of the first; none without it.
-    ///
-    /// The second method is the better one on the same record, so their difference has at most the variance of the first.
+    /// How far the first method's stiffness and damping lie above the second's, in standard errors of the first; none without it. The second
+    /// method is the better one on the same record, so their difference has at most the variance of the first.
     pub fn disagreement(&self) -> Option<[f64; 2]> {
         let by_decrement = self.by_decrement?;
         Some([0, 1].map(|i| {
@@ -69,7 +72,8 @@ impl FreeVibration {
 /// logarithms do not, and those of small ones are biased. Their errors are the noise of the record as the smoothing passes it,
 /// or their own scatter where that is clearly larger. Smoothing changes all turning points by one factor. The second method
 /// is the least squares of `r = rest + exp(-gamma t) (a cos(omega_d t) + b sin(omega_d t))` on every sample after the
-/// mass has first passed its rest position; it uses all of the decay and is the better one. Where the mass is at rest after a swing or
+/// mass has first passed its rest position, and on all samples where they are those of a mass that is let go at rest, see [`released`]; it
+/// uses all of the decay and is the better one. Where the mass is at rest after a swing or
 /// two, the second method alone is used, from several dampings: the best of the decays that it ends in.
 ///
 /// # Assumes
@@ -103,7 +107,7 @@ fn of_turns(times: &[f64], r: &[f64], m1: f64, turns: &Turns) -> Result<FreeVibr
     Ok(FreeVibration {
         by_decrement: Some(by_decrement),
         turns: turns.times.len(),
-        ..model.told(&fit)
+        ..model.with_release(&fit, [times, r], first)
     })
 }
 
@@ -125,7 +129,7 @@ fn of_swing(times: &[f64], r: &[f64], m1: f64, swing: &Swing) -> Result<FreeVibr
         found = fit.filter(|it| it.sum_of_squares < best).or(found);
     }
     let fit = found.ok_or(NO_DECAY)?;
-    Ok(model.told(&fit))
+    Ok(model.with_release(&fit, [times, r], first))
 }
 
 /// Whether the decay with these parameters passes its rest position again and again.
@@ -147,12 +151,31 @@ impl Decay<'_> {
         FreeVibration {
             by_decrement: None,
             by_decay: [fit.estimate(0), fit.estimate(1)],
+            from_release: false,
             rest: fit.parameters[4],
             scatter: fit.residual_deviation(),
             noise: noise(self.r),
             begins: self.times[0],
             amplitudes: [fit.parameters[2], fit.parameters[3]],
             turns: 0,
+        }
+    }
+
+    /// What the fit of a whole record tells, if it describes it, and else that of its part from the sample `first` on.
+    fn with_release(&self, later: &Fit, [times, r]: [&[f64]; 2], first: usize) -> FreeVibration {
+        let known = Later { fit: later, first };
+        let told = self.told(later);
+        let Some(Released { fit, amplitudes }) = released(times, r, self.m1, known) else {
+            return told;
+        };
+        FreeVibration {
+            by_decay: [fit.estimate(0), fit.estimate(1)],
+            from_release: true,
+            rest: fit.parameters[4],
+            scatter: fit.residual_deviation(),
+            begins: fit.parameters[3],
+            amplitudes,
+            ..told
         }
     }
 }

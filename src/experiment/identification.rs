@@ -133,7 +133,12 @@ fn of_decay(
         constant: Constant::Parameter(parameter.into()),
         estimate: found.by_decay[which],
         verdict: Verdict::Determined,
-        method: "least squares on the decay from where the mass first passes its rest position",
+        method: match found.from_release {
+            true => "least squares on the decay from its release on",
+            false => {
+                "least squares on the decay from where the mass first passes its rest position"
+            }
+        },
         source: recording.source.clone(),
         other: found.by_decrement.map(|estimates| Other {
             method: "logarithmic decrement",

@@ -43,6 +43,7 @@ pub mod progression;
 pub mod recorded_period;
 pub mod recording;
 mod recording_file;
+mod release;
 mod search_starts;
 pub mod settled_motion;
 pub mod simulated_span;

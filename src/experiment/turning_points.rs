@@ -16,6 +16,11 @@ const WINDOW: f64 = 0.7;
 /// Half waves, the first with its release, whose turning points tell a decay by themselves.
 const LEAST_TURNS: usize = 4;
 
+/// Why there is no decay to fit, and what can be done.
+const NO_SWING: &str = "the record does not swing beyond its rest position above its noise, so that k1 and c cannot be told from it; is the \
+     damping above critical (c of 2 sqrt(k1 m1) or more)? Then the mass creeps to rest and no vibration is seen: record with a \
+     larger mass or less damping, or, if the noise hides the swing, with a larger release";
+
 /// The turning points of a decaying record.
 pub(super) struct Turns {
     /// Which half wave each is of: some may not be found.
@@ -64,10 +69,7 @@ pub(super) fn turning_points(times: &[f64], r: &[f64]) -> Result<Clear, String> 
     let clear = (CLEAR * noise(r)).max(SMALL * largest).max(f64::MIN_POSITIVE);
     let halves = half_waves(r, rest, clear);
     let Some(beyond) = halves.get(1) else {
-        return Err(
-            "the record does not swing beyond its rest position above its noise; is it a free vibration?"
-                .to_owned(),
-        );
+        return Err(NO_SWING.to_owned());
     };
     let whole = turns(times, r, rest, &halves).transpose()?;
     Ok(whole.map_or_else(|| Clear::Swing(swing(times, r, rest, beyond)), Clear::Turns))

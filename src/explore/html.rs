@@ -1,80 +1,175 @@
-//! The parts of a page: text, tables and pictures as HTML that needs nothing from outside.
+//! The parts of a report: numbered sections, figures and tables, with references to them, as HTML that needs nothing from outside.
 
 use std::fmt::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
+use super::escaped::{escaped, sentence};
+use super::table::Table;
 use crate::figure::Picture;
 
-/// How the page looks; colours of text and rules alone, so that it prints as it is.
-const STYLE: &str = "\
-body { max-width: 62rem; margin: 2rem auto; padding: 0 1rem; font: 16px/1.5 Georgia, serif; color: #111; }\n\
-h1, h2, h3 { line-height: 1.2; } h2 { margin-top: 2.2rem; border-bottom: 1px solid #999; }\n\
-table { border-collapse: collapse; font-size: 0.9rem; } .wide { overflow-x: auto; }\n\
-th, td { padding: 0.15rem 0.6rem; text-align: right; max-width: 16rem; } th { border-bottom: 1px solid #111; vertical-align: bottom; }\n\
-th:first-child, td:first-child { text-align: left; } td.text { text-align: left; }\n\
-figure { margin: 1.2rem 0; } figcaption { font-size: 0.9rem; } img { max-width: 100%; height: auto; }\n\
-.row { display: flex; flex-wrap: wrap; gap: 1rem; align-items: flex-start; }\n\
-pre { background: #f4f4f4; padding: 0.6rem; white-space: pre-wrap; overflow-wrap: anywhere; font-size: 0.82rem; line-height: 1.35; }\n\
-nav a { margin-right: 1rem; } .note { color: #555; font-size: 0.9rem; }\n";
+/// How the page looks on screens and on paper.
+const STYLE: &str = include_str!("report/style.css");
+/// What sorts and copies tables; the page is whole without it.
+const SCRIPT: &str = include_str!("report/tables.js");
 
 /// Pictures are this much wider than in print, as screens are farther from the eye.
 const ENLARGED: f64 = 1.4;
+/// A text of up to so many lines is not torn between pages.
+const SHORT: usize = 30;
 
 /// Tells a page of this program.
 pub const GENERATOR: &str = "<meta name=\"generator\" content=\"capsulemap\">";
+
+/// What a reference leads to, by its number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Item {
+    /// A figure.
+    Figure(usize),
+    /// A table.
+    Table(usize),
+}
+
+impl Item {
+    /// Its name as the page has it: "Figure 3".
+    fn name(self) -> String {
+        match self {
+            Item::Figure(number) => format!("Figure {number}"),
+            Item::Table(number) => format!("Table {number}"),
+        }
+    }
+
+    fn anchor(self) -> String {
+        self.name().to_lowercase().replace(' ', "-")
+    }
+}
+
+/// A paragraph with references.
+#[derive(Debug, Clone, Default)]
+pub struct Prose(String);
+
+impl Prose {
+    /// A paragraph that goes on with a text.
+    pub fn and(self, text: &str) -> Prose {
+        Prose(self.0 + &sentence(text))
+    }
+
+    /// A paragraph that goes on with a reference.
+    pub fn see(self, item: Item) -> Prose {
+        Prose(self.0 + &format!("<a href=\"#{}\">{}</a>", item.anchor(), item.name()))
+    }
+}
+
+impl From<&str> for Prose {
+    fn from(text: &str) -> Prose {
+        Prose::default().and(text)
+    }
+}
+
+impl From<String> for Prose {
+    fn from(text: String) -> Prose {
+        Prose::from(text.as_str())
+    }
+}
+
+/// A heading of a page.
+#[derive(Debug)]
+struct Heading {
+    /// Its number: "2", or "2.1" within a section.
+    number: String,
+    text: String,
+}
 
 /// A page that is being written.
 #[derive(Debug, Default)]
 pub struct Page {
     body: String,
-    /// The headings of its parts.
-    parts: Vec<String>,
+    /// What the sections tell in short.
+    in_short: Vec<String>,
+    headings: Vec<Heading>,
+    /// Sections, sections within the last of them, figures and tables so far.
+    sections: [usize; 2],
+    figures: usize,
+    tables: usize,
 }
 
 impl Page {
-    /// Begins a part.
-    pub fn part(&mut self, heading: &str) {
-        let number = self.parts.len() + 1;
-        // Writing to a String cannot fail.
-        let _ = writeln!(self.body, "<h2 id=\"part-{number}\">{}</h2>", escaped(heading));
-        self.parts.push(heading.to_owned());
+    /// Begins a section.
+    pub fn section(&mut self, heading: &str) {
+        self.sections = [self.sections[0] + 1, 0];
+        self.begin("h2", self.sections[0].to_string(), heading);
     }
 
-    /// A heading within a part.
-    pub fn heading(&mut self, heading: &str) {
-        let _ = writeln!(self.body, "<h3>{}</h3>", escaped(heading));
+    /// Begins a section within a section.
+    pub fn subsection(&mut self, heading: &str) {
+        self.sections[1] += 1;
+        let [outer, inner] = self.sections;
+        self.begin("h3", format!("{outer}.{inner}"), heading);
+    }
+
+    fn begin(&mut self, element: &str, number: String, heading: &str) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            self.body,
+            "<{element} id=\"section-{number}\"><span class=\"number\">{number}</span>{}</{element}>",
+            escaped(heading)
+        );
+        self.headings.push(Heading { number, text: heading.to_owned() });
+    }
+
+    /// Tells a sentence in the summary that stands first.
+    pub fn sum_up(&mut self, sentence: impl Into<String>) {
+        self.in_short.push(sentence.into());
     }
 
     /// A paragraph.
-    pub fn text(&mut self, text: &str) {
-        let _ = writeln!(self.body, "<p>{}</p>", escaped(text));
+    pub fn text(&mut self, text: impl Into<Prose>) {
+        let _ = writeln!(self.body, "<p>{}</p>", text.into().0);
     }
 
     /// A paragraph of less weight.
     pub fn note(&mut self, text: &str) {
-        let _ = writeln!(self.body, "<p class=\"note\">{}</p>", escaped(text));
+        let _ = writeln!(self.body, "<p class=\"note\">{}</p>", sentence(text));
     }
 
     /// Text as it is, with its lines.
     pub fn verbatim(&mut self, text: &str) {
-        let _ = writeln!(self.body, "<pre>{}</pre>", escaped(text));
+        let class = if text.lines().count() <= SHORT { " class=\"short\"" } else { "" };
+        let _ = writeln!(self.body, "<pre{class}>{}</pre>", escaped(text));
     }
 
-    /// A table with a line of headings; the first column is text.
-    pub fn table(&mut self, headings: &[String], rows: &[Vec<String>]) {
-        let _ =
-            writeln!(self.body, "<div class=\"wide\"><table>\n<tr>{}</tr>", cells(headings, "th"));
-        for row in rows {
-            let _ = writeln!(self.body, "<tr>{}</tr>", cells(row, "td"));
-        }
-        self.body.push_str("</table></div>\n");
+    /// The table that comes next.
+    pub fn next_table(&self) -> Item {
+        Item::Table(self.tables + 1)
     }
 
-    /// Pictures beside each other, with what is said of them.
+    /// The figure that comes next.
+    pub fn next_figure(&self) -> Item {
+        Item::Figure(self.figures + 1)
+    }
+
+    /// A table with its caption above it.
+    pub fn table(&mut self, table: &Table) {
+        self.tables += 1;
+        let item = Item::Table(self.tables);
+        let (anchor, name) = (item.anchor(), item.name());
+        let (class, caption, content) = (table.class(), sentence(&table.caption), table.html());
+        let _ = writeln!(
+            self.body,
+            "<div class=\"{class}\" id=\"{anchor}\">\n<div class=\"head\"><p class=\"caption\" id=\"{anchor}-caption\"><b>{name}.</b> \
+             {caption}</p></div>\n<div class=\"wide\" role=\"group\" aria-labelledby=\"{anchor}-caption\">\
+             <table aria-labelledby=\"{anchor}-caption\">\n{content}</table></div>\n</div>"
+        );
+    }
+
+    /// Pictures beside each other with their caption below them.
     pub fn pictures(&mut self, pictures: &[Picture], caption: &str) {
-        self.body.push_str("<figure>\n<div class=\"row\">\n");
+        self.figures += 1;
+        let item = Item::Figure(self.figures);
+        let (anchor, name) = (item.anchor(), item.name());
+        let class = if pictures.len() > 1 { "row pair" } else { "row" };
+        let _ = writeln!(self.body, "<figure id=\"{anchor}\">\n<div class=\"{class}\">");
         for Picture { png, about, width_mm, .. } in pictures {
             let (data, about) = (STANDARD.encode(png), escaped(about));
             let width_mm = ENLARGED * width_mm;
@@ -83,49 +178,69 @@ impl Page {
                 "<img style=\"width: {width_mm:.0}mm\" alt=\"{about}\" src=\"data:image/png;base64,{data}\">"
             );
         }
-        let _ =
-            writeln!(self.body, "</div>\n<figcaption>{}</figcaption>\n</figure>", escaped(caption));
+        let _ = writeln!(
+            self.body,
+            "</div>\n<figcaption><b>{name}.</b> {}</figcaption>\n</figure>",
+            sentence(caption)
+        );
     }
 
-    /// The whole page under a title.
-    pub fn finish(self, title: &str) -> String {
+    /// The whole page under a title, with facts about it by their names.
+    pub fn finish(self, title: &str, facts: &[(&str, String)]) -> String {
         let title = escaped(title);
-        let links: String = self
-            .parts
-            .iter()
-            .enumerate()
-            .map(|(place, part)| format!("<a href=\"#part-{}\">{}</a>", place + 1, escaped(part)))
-            .collect();
+        let (facts, contents) = (listed(facts), self.contents());
+        let in_short = sentence(&self.in_short.join(" "));
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n{GENERATOR}\n<title>{title}</title>\n\
-             <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n<nav>{links}</nav>\n{}</body>\n</html>\n",
+             <style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<dl class=\"facts\">\n{facts}</dl>\n</header>\n<main>\n\
+             <section class=\"abstract\" aria-labelledby=\"abstract\">\n<h2 id=\"abstract\">Abstract</h2>\n<p>{in_short}</p>\n</section>\n\
+             <nav aria-labelledby=\"contents\">\n<h2 id=\"contents\">Contents</h2>\n<ol>\n{contents}</ol>\n</nav>\n{}</main>\n\
+             <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
             self.body
         )
     }
+
+    /// The headings with links to them.
+    fn contents(&self) -> String {
+        let lines = self.headings.iter().map(|Heading { number, text }| {
+            let class = if number.contains('.') { " class=\"inner\"" } else { "" };
+            format!(
+                "<li{class}><span class=\"number\">{number}</span><a href=\"#section-{number}\">{}</a></li>\n",
+                escaped(text)
+            )
+        });
+        lines.collect()
+    }
 }
 
-/// The cells of a line of a table, each in an element of this kind.
-fn cells(cells: &[String], kind: &str) -> String {
-    cells.iter().map(|it| format!("<{kind}>{}</{kind}>", escaped(it))).collect()
-}
-
-/// Text with the characters that HTML reads otherwise replaced.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+/// Facts by their names.
+fn listed(facts: &[(&str, String)]) -> String {
+    let lines = facts
+        .iter()
+        .map(|(name, fact)| format!("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(fact)));
+    lines.collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Page;
+    use super::super::table::{Cell, Column};
+    use super::*;
 
     #[test]
     fn nothing_in_a_text_is_read_as_html() {
         let mut page = Page::default();
-        page.part("a < b & \"c\"");
-        page.table(&["<th>".to_owned()], &[vec!["</table>".to_owned()]]);
-        let html = page.finish("<script>");
-        assert!(!html.contains("<script>") && html.matches("</table>").count() == 1);
-        assert!(html.contains("<h2 id=\"part-1\">a &lt; b &amp; &quot;c&quot;</h2>"));
+        page.section("a < b & \"c\"");
+        let table = Table {
+            caption: "<caption>".to_owned(),
+            columns: vec![Column::text("<th>")],
+            rows: vec![vec![Cell::text("</table>")]],
+        };
+        page.table(&table);
+        page.text(Prose::from("<p>").see(Item::Table(1)));
+        let html = page.finish("<script>", &[("<dt>", "<dd>".to_owned())]);
+        assert!(html.matches("<script>").count() == 1 && html.matches("</table>").count() == 1);
+        assert!(html.contains("</span>a &lt; b &amp; &quot;c&quot;</h2>"));
+        assert!(html.contains("<p>&lt;p&gt;<a href=\"#table-1\">Table 1</a></p>"));
     }
 }

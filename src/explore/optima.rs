@@ -1,13 +1,15 @@
-//! The optima of a report: a table, sensitivities, commands that compute them again, and their motions.
+//! The optima of a report: tables, commands that compute them again, and their motions.
 
-use super::html::Page;
-use super::numbers::{number, percent, unit};
+use super::computation::listed;
+use super::html::{Page, Prose};
+use super::numbers::{called, measured};
+use super::optima_tables::{front, margins, optima, sensitivities};
 use super::optimum::{Drawings, Undrawn, drawings};
 use super::request::Request;
+use crate::campaign::count::counted;
 use crate::campaign::{
-    Answer, Between, CampaignError, KeptFront, Margins, Named, Refined, Row, TradeOff, silent,
+    Answer, Between, CampaignError, KeptFront, Named, Refined, Row, TradeOff, silent,
 };
-use crate::description::{Description, Parameter};
 use crate::study::Study;
 use crate::tradeoff::{Direction, GainAndCost, unit_behind};
 
@@ -27,7 +29,7 @@ pub fn write_optima(
         true => format!("Moving {}", direction.name()),
         false => format!("{}, {}", of.gain.name(), direction.name()),
     };
-    page.heading(&format!("{moving}{under}"));
+    page.subsection(&format!("{moving}{under}"));
     let trade_off = TradeOff {
         archive,
         file,
@@ -46,7 +48,7 @@ pub fn write_optima(
     };
     match trade_off.answer(&silent) {
         Err(CampaignError::TradeOff { faults, .. }) => {
-            page.text(&format!("No optima: {}.", faults.join("; ")));
+            page.text(format!("No optima: {}.", faults.join("; ")));
             Ok(())
         }
         Err(error) => Err(error),
@@ -54,7 +56,46 @@ pub fn write_optima(
             page.text("No motion.");
             Ok(())
         }
-        Ok(answer) => write_answer(page, study, &answer, &format!("{}{under}", direction.name())),
+        Ok(answer) => {
+            if condition.is_none() {
+                page.sum_up(best_in_words(&answer, &moving));
+            }
+            write_answer(page, study, &answer, &format!("{}{under}", direction.name()))
+        }
+    }
+}
+
+/// Motions that are the best in something, each once.
+fn each_once(answer: &Answer) -> Vec<(String, Row)> {
+    let mut named: Vec<(String, Row)> = Vec::new();
+    for Named { name, row } in &answer.named {
+        let Some(row) = row else { continue };
+        let name = name.replace('_', " ");
+        match named.iter_mut().find(|(_, it)| it.replay == row.replay) {
+            Some((others, _)) => *others += &format!("{AND}{name}"),
+            None => named.push((name, row.clone())),
+        }
+    }
+    named
+}
+
+/// Between the names of a motion that is the best in several things.
+const AND: &str = " and ";
+
+/// A motion in a sentence, by what it is the best in.
+fn phrase(name: &str) -> String {
+    let mut words = name.split(AND).map(|it| match it {
+        "fastest" => "fastest".to_owned(),
+        "knee" => "at the knee".to_owned(),
+        other => format!("with the {other}"),
+    });
+    let first = words.next().unwrap_or_default();
+    let others: Vec<String> = words.collect();
+    let more =
+        if others.is_empty() { String::new() } else { format!(" (also {})", listed(&others)) };
+    match first.as_str() {
+        "fastest" => format!("fastest motion{more}"),
+        place => format!("motion {place}{more}"),
     }
 }
 
@@ -65,17 +106,22 @@ fn write_answer(
     answer: &Answer,
     moving: &str,
 ) -> Result<(), CampaignError> {
-    page.text(&front_in_words(answer));
-    let rows = answer
-        .named
-        .iter()
-        .filter_map(|Named { name, row }| Some((name.replace('_', " "), row.clone()?)));
-    let named: Vec<(String, Row)> = rows.collect();
-    write_table(page, &named, answer.of);
-    write_sensitivities(page, &named, answer.of);
-    write_margins(page, &named, study.base.model());
+    let named = each_once(answer);
+    page.text(front_in_words(answer));
+    let best = Prose::from("The best motions are in ").see(page.next_table());
+    page.text(best.and("; each can be computed again by its command below."));
+    page.table(&optima(&named, answer.of, moving));
+    if let Some(table) = sensitivities(&named, answer.of, moving) {
+        page.table(&table);
+    }
+    if let Some(table) = margins(&named, study.base.model(), moving) {
+        page.table(&table);
+    }
+    if answer.front.len() > 1 {
+        page.table(&front(answer, moving));
+    }
     let replays: Vec<&str> = named.iter().map(|(_, row)| row.replay.as_str()).collect();
-    page.text("To compute them again:");
+    page.text("To compute the best motions again:");
     page.verbatim(&replays.join("\n"));
     write_motions(page, &named, study, moving)
 }
@@ -94,7 +140,15 @@ fn write_motions(
     for (name, row) in named {
         match drawings(row, study) {
             Ok(Some(Drawings { pictures, cycles })) => {
-                let caption = format!("{name}, {moving}: {cycles} cycles of the drive");
+                let where_it_is = match row.case {
+                    Some(case) => format!("case {case}"),
+                    None => "between the cases".to_owned(),
+                };
+                let caption = format!(
+                    "The {}, {moving} ({where_it_is}): displacements and velocities over {cycles} cycles of the drive, and \
+                     the phase portrait of the relative motion.",
+                    phrase(name)
+                );
                 page.pictures(&pictures, &caption);
             }
             Ok(None) => page.note(&format!("{name}: does not repeat, and is not drawn.")),
@@ -103,6 +157,27 @@ fn write_motions(
         }
     }
     Ok(())
+}
+
+/// The best motions in a sentence.
+fn best_in_words(answer: &Answer, moving: &str) -> String {
+    let of = answer.of;
+    let told = each_once(answer).into_iter().map(|(name, row)| {
+        let varied = row.coordinates.iter().filter(|(_, _, varies)| *varies);
+        let at: Vec<String> = varied
+            .map(|(it, value, _)| {
+                format!("{} = {}", it.name(), measured(*value, it.dimension().unit()))
+            })
+            .collect();
+        let at = if at.is_empty() { String::new() } else { format!(" at {}", listed(&at)) };
+        let [gain, cost] = [(of.gain, row.gain), (of.cost, row.price)].map(|(output, value)| {
+            format!("a {} of {}", called(output.quantity()), measured(value, output.unit()))
+        });
+        format!("the {} has {gain} and {cost}{at}", phrase(&name))
+    });
+    let told: Vec<String> = told.collect();
+    let front = counted(answer.front.len(), "motion");
+    format!("{moving}, the Pareto front has {front}: {}.", told.join("; "))
 }
 
 /// The front, what takes part in it and what does not.
@@ -128,124 +203,23 @@ fn front_in_words(answer: &Answer) -> String {
         None => " No motion was sought between the cases.".to_owned(),
     };
     let (of, at_rest) = (answer.of, answer.at_rest.0);
-    let (gain, without) = match of.has_own_gain() {
-        true => (
-            "progression speed",
-            format!("Motions of no more than {at_rest:.1e} m/s count as at rest."),
-        ),
-        false => (
-            of.gain.name(),
-            format!("A gain of no more than {at_rest:.1e}{} counts as none.", unit_behind(of.gain)),
-        ),
+    let without = match of.has_own_gain() {
+        true => format!("Motions of no more than {at_rest:.1e} m/s count as at rest."),
+        false => {
+            format!("A gain of no more than {at_rest:.1e}{} counts as none.", unit_behind(of.gain))
+        }
     };
     format!(
-        "The Pareto front of {gain} ({}) and {}{condition} has {} motions, {between} of them between the cases.{searched}{left_out} \
+        "The Pareto front of {} ({}) and {}{condition} has {}, {between} of them between the cases.{searched}{left_out} \
          {without}",
+        gain_in_words(of),
         answer.direction.name(),
-        of.cost.name(),
-        answer.front.len()
+        called(of.cost.quantity()),
+        counted(answer.front.len(), "motion")
     )
 }
 
-/// The optima side by side: what they give, what holds them, and where they are.
-fn write_table(page: &mut Page, named: &[(String, Row)], of: GainAndCost) {
-    let Some((_, first)) = named.first() else { return };
-    let (gain, per_gain) = match of.has_own_gain() {
-        true => ("progression speed [m/s]".to_owned(), "energy per metre [J/m]"),
-        false => (format!("{} [{}]", of.gain.name(), of.gain.unit()), "cost per gain"),
-    };
-    let mut rows = vec![
-        line(&gain, named, |row| {
-            let error = row.errors.map(|it| format!(" \u{b1} {}", number(it.gain)));
-            number(row.gain) + &error.unwrap_or_default()
-        }),
-        line(&format!("{} [{}]", of.cost.name(), of.cost.unit()), named, |row| number(row.price)),
-    ];
-    if of.told_per_gain() != Some(of.cost) {
-        rows.push(line(per_gain, named, |row| number(row.per_gain)));
-    }
-    rows.push(line("motion", named, |row| match row.period {
-        Some(period) => format!("period {period}"),
-        None => format!("{}, by its mean", row.outcome),
-    }));
-    for (place, (coordinate, _, varies)) in first.coordinates.iter().enumerate() {
-        let label = format!("{} [{}]", coordinate.name(), unit(*coordinate));
-        if *varies {
-            rows.push(line(&label, named, |row| {
-                row.coordinates.get(place).map_or(String::new(), |it| number(it.1))
-            }));
-        }
-    }
-    rows.push(line("case", named, |row| {
-        row.case.map_or("between cases".to_owned(), |it| it.to_string())
-    }));
-    rows.push(line("active constraint", named, |row| row.slopes.held_by.join(", ")));
-    rows.push(line("relative gradient left", named, |row| {
-        row.slopes.stationarity.map_or(String::new(), |it| format!("{it:.1e}"))
-    }));
-    let names = named.iter().map(|(name, _)| name.clone());
-    let headings: Vec<String> = [String::new()].into_iter().chain(names).collect();
-    page.table(&headings, &rows);
-}
-
-/// By how many percent gain and price of the motions between the cases change per percent of each parameter.
-fn write_sensitivities(page: &mut Page, named: &[(String, Row)], of: GainAndCost) {
-    let known: Vec<&(String, Row)> =
-        named.iter().filter(|(_, row)| !row.slopes.sensitivity.is_empty()).collect();
-    let Some((_, first)) = known.first() else { return };
-    let gain = if of.has_own_gain() { "speed" } else { of.gain.name() };
-    let outputs = [gain, of.cost.name()];
-    let columns = known.iter().flat_map(|(name, _)| outputs.map(|it| format!("{it}, {name}")));
-    let rows = first.slopes.sensitivity.iter().map(|(parameter, _)| {
-        let cells = known.iter().flat_map(|(_, row)| sensitivity(row, *parameter).map(percent));
-        [parameter.symbol().to_owned()].into_iter().chain(cells).collect()
-    });
-    let rows: Vec<Vec<String>> = rows.collect();
-    page.text(
-        "Change in percent per percent of each parameter. At a kink the change is another on its other side; that told is of the \
-         sequence of events of the motion:",
-    );
-    let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();
-    page.table(&headings, &rows);
-}
-
-/// By how many percent gain and price of a motion change per percent of a parameter; NaN where that is not known.
-fn sensitivity(row: &Row, parameter: Parameter) -> [f64; 2] {
-    let known = row.slopes.sensitivity.iter().find(|(other, _)| *other == parameter);
-    known.map_or([f64::NAN; 2], |(_, both)| *both)
-}
-
-/// How far the parameters of the optima may change before these end.
-fn write_margins(page: &mut Page, named: &[(String, Row)], model: &'static Description) {
-    let known: Vec<&(String, Row)> =
-        named.iter().filter(|(_, row)| !row.margins.is_empty()).collect();
-    if known.is_empty() {
-        return;
-    }
-    let rows: Vec<Vec<String>> =
-        model.parameters().filter_map(|parameter| margin_line(&known, parameter)).collect();
-    let columns =
-        known.iter().flat_map(|(name, _)| ["falling", "rising"].map(|it| format!("{name}, {it}")));
-    let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();
-    page.text(
-        "Where each motion ends or loses its stability as one parameter falls or rises, by a half at most; `tradeoff --margins` \
-         tells the changes of events on the way, too:",
-    );
-    page.table(&headings, &rows);
-}
-
-/// The line of a parameter: where each motion ends along it; none where that is known of no motion.
-fn margin_line(motions: &[&(String, Row)], parameter: Parameter) -> Option<Vec<String>> {
-    let margins =
-        motions.iter().map(|(_, row)| row.margins.iter().find(|it| it.parameter == parameter));
-    let ends: Vec<Option<[String; 2]>> = margins.map(|it| it.map(Margins::ends)).collect();
-    let is_known = ends.iter().any(Option::is_some);
-    let cells = ends.into_iter().flat_map(Option::unwrap_or_default);
-    is_known.then(|| [parameter.symbol().to_owned()].into_iter().chain(cells).collect())
-}
-
-/// A line of a table: its name, and a cell for each optimum.
-fn line(name: &str, named: &[(String, Row)], cell: impl Fn(&Row) -> String) -> Vec<String> {
-    let cells = named.iter().map(|(_, row)| cell(row));
-    [name.to_owned()].into_iter().chain(cells).collect()
+/// The gain, as a sentence calls it.
+pub fn gain_in_words(of: GainAndCost) -> String {
+    called(of.gain.quantity())
 }

@@ -1,15 +1,20 @@
-//! The report of a file of results: one page with its optima, its figures, its study, and how to compute it again.
+//! The report of a file of results: one page with what was computed, what came of it, and how to compute it again.
 
-use super::html::Page;
-use super::numbers::{number, unit};
-use super::optima::write_optima;
+use super::computation::write_computation;
+use super::figure_captions::{caption, mention};
+use super::html::{Item, Page, Prose};
+use super::optima::{gain_in_words, write_optima};
+use super::outcomes::write_outcomes;
 use super::request::Request;
+use super::table::{Cell, Column, Table};
+use crate::campaign::count::counted;
 use crate::campaign::{CampaignError, KeptFront, KeptSearches, quoted, study_of};
 use crate::figure::{FigureError, Picture, Shown, gain_of, picture, variables};
 use crate::of::default_model;
-use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
+use crate::quantity::printable::printable;
+use crate::store::catalogue::STUDY_TEXT;
 use crate::store::{CaseTable, provenance};
-use crate::study::{Coordinate, Drawing, Study};
+use crate::study::{Drawing, Study};
 use crate::tradeoff::Direction;
 
 /// The directions whose optima are told.
@@ -27,33 +32,29 @@ const PAPER: &str = "Y. Liu, H. Jiang, E. Pavlovskaia, M. Wiercigroch: Experimen
 pub fn report(request: &Request<'_>) -> Result<String, CampaignError> {
     let Request { archive, file, of } = *request;
     let study = study_of(archive, file)?;
-    let mut page = Page::default();
-    let kept = match KeptSearches::read(archive, &study) {
+    let (kept, unread) = match KeptSearches::read(archive, &study) {
         Err(error) => {
-            page.note(&format!("Motions between the cases are not shown: {error}."));
-            KeptSearches::default()
+            let note = format!("Motions between the cases are not shown: {error}.");
+            (KeptSearches::default(), Some(note))
         }
-        Ok(kept) => kept,
+        Ok(kept) => (kept, None),
     };
-    kept.damage(archive).iter().for_each(|it| page.note(&format!("{it}.")));
     let fronts = kept.fronts(archive, of.gain)?;
     let report = Report { request, study: &study, kept: &kept, fronts: &fronts };
+    let mut page = Page::default();
+    let cases = CaseTable::of(archive)?.map(|it| it.cases());
+    write_computation(&mut page, &study, cases);
+    write_outcomes(&mut page, archive, &study)?;
     report.write_figures(&mut page)?;
-    page.part("Optima");
-    let without = fronts.iter().find(|front| front.conditions.is_empty());
-    for direction in DIRECTIONS {
-        write_optima(&mut page, request, &study, without, direction)?;
-    }
-    for front in fronts.iter().filter(|front| !front.conditions.is_empty()) {
-        for direction in DIRECTIONS.into_iter().filter(|it| front.has_sought(*it)) {
-            write_optima(&mut page, request, &study, Some(front), direction)?;
-        }
-    }
-    report.write_cases(&mut page)?;
-    report.write_parameters(&mut page);
-    report.write_study(&mut page);
+    page.section("Optima");
+    unread.iter().for_each(|it| page.note(it));
+    kept.damage(archive).iter().for_each(|it| page.note(&format!("{it}.")));
+    report.write_optima(&mut page)?;
+    report.write_again(&mut page);
+    report.write_origin(&mut page);
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-    Ok(page.finish(if study.title.is_empty() { &stem } else { &study.title }))
+    let title = if study.title.is_empty() { &stem } else { study.title.as_str() };
+    Ok(page.finish(title, &report.facts()))
 }
 
 struct Report<'a> {
@@ -64,72 +65,39 @@ struct Report<'a> {
 }
 
 impl Report<'_> {
-    /// What the file holds.
-    fn write_cases(&self, page: &mut Page) -> Result<(), CampaignError> {
+    /// What stands below the title.
+    fn facts(&self) -> Vec<(&'static str, String)> {
         let Request { archive, file, .. } = self.request;
-        page.part("Cases");
-        let Some(table) = CaseTable::of(archive)? else {
-            page.text(&format!("{} holds no cases of a sweep.", file.display()));
-            return Ok(());
-        };
-        page.text(&format!("{} holds {} cases.", file.display(), table.cases()));
-        if let Some(outcomes) = table.column(OUTCOME.name)? {
-            let counts = outcomes.flags.iter().map(|(code, name)| {
-                (name.clone(), outcomes.values.iter().filter(|it| **it == *code as f64).count())
-            });
-            let present = counts.filter(|(_, count)| *count > 0);
-            let rows: Vec<_> = present.map(|(name, count)| vec![name, count.to_string()]).collect();
-            page.table(&[OUTCOME.name, "cases"].map(str::to_owned), &rows);
-        }
-        Ok(())
-    }
-
-    /// What varies among the cases, and what is held.
-    fn write_parameters(&self, page: &mut Page) {
-        let varied = self.study.case_set.varied();
-        page.heading("What varies");
-        let rows = varied.iter().filter_map(|coordinate| {
-            let [low, high] = self.study.case_set.ends(*coordinate)?.map(number);
-            Some(vec![coordinate.name().to_owned(), low, high, unit(*coordinate).to_owned()])
-        });
-        let rows: Vec<_> = rows.collect();
-        page.table(&["", "from", "to", "unit"].map(str::to_owned), &rows);
-        page.heading("What is held");
-        let base = &self.study.base;
-        let all = base.stated().map(|(it, value)| (Coordinate::Parameter(it), value));
-        let held = all.filter(|(it, _)| !varied.contains(it));
-        let rows: Vec<_> = held
-            .map(|(it, value)| vec![it.name().to_owned(), number(value), unit(it).to_owned()])
-            .collect();
-        page.table(&["", "value", "unit"].map(str::to_owned), &rows);
-        let choices = base.choices().map(|(name, chosen)| {
-            let mut all = base.model().choices.iter();
-            let title = all.find(|it| it.name == name).map_or(name, |it| it.title);
-            format!("{title}: {chosen}. ")
-        });
-        page.note(&format!(
-            "{}Relative local error of a step: {:e}.",
-            choices.collect::<String>(),
-            self.study.protocol.tolerance
-        ));
+        let attributes = &archive.frame().attributes;
+        let created = attributes.get(provenance::CREATED).map_or("unknown", String::as_str);
+        vec![
+            ("Kind", "Report of a computation".to_owned()),
+            ("Results", printable(file).to_string()),
+            ("Written", created.replace('T', " ").replace('Z', " UTC")),
+            ("Program", provenance::program(attributes)),
+            ("Model", self.study.base.model().name.to_owned()),
+        ]
     }
 
     /// The figures of the study.
     fn write_figures(&self, page: &mut Page) -> Result<(), CampaignError> {
-        page.part("Figures");
+        page.section("Figures");
         if self.study.drawings.is_empty() {
             page.text("The study asks for none.");
         }
+        let (mut drawn, mut missing) = (Vec::new(), Vec::new());
         for drawing in &self.study.drawings {
             match self.drawn(drawing)? {
-                Ok(drawn) => {
-                    let notes: String = drawn.notes.iter().map(|it| format!("; {it}")).collect();
-                    let caption = format!("{}: {}{notes}", drawing.name, drawn.about);
-                    page.pictures(&[drawn], &caption);
-                }
-                Err(error) => page.note(&format!("{}: not drawn: {error}", drawing.name)),
+                Ok(picture) => drawn.push((drawing, picture)),
+                Err(error) => missing.push(format!("{}: not drawn: {error}", drawing.name)),
             }
         }
+        write_list_of_figures(page, &drawn);
+        for (drawing, picture) in drawn {
+            let caption = caption(drawing, &picture, self.study.base.model());
+            page.pictures(&[picture], &caption);
+        }
+        missing.iter().for_each(|it| page.note(it));
         Ok(())
     }
 
@@ -150,13 +118,41 @@ impl Report<'_> {
         }
     }
 
-    /// The study, where the results come from, and how to cite and to repeat them.
-    fn write_study(&self, page: &mut Page) {
-        let Request { archive, file, .. } = self.request;
-        let frame = archive.frame();
-        page.part("Study");
+    /// The optima without conditions, and those under each condition that something was sought under.
+    fn write_optima(&self, page: &mut Page) -> Result<(), CampaignError> {
+        let without = self.fronts.iter().find(|front| front.conditions.is_empty());
+        for direction in DIRECTIONS {
+            write_optima(page, self.request, self.study, without, direction)?;
+        }
+        for front in self.fronts.iter().filter(|front| !front.conditions.is_empty()) {
+            for direction in DIRECTIONS.into_iter().filter(|it| front.has_sought(*it)) {
+                write_optima(page, self.request, self.study, Some(front), direction)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The commands that compute all of it again, and the study.
+    fn write_again(&self, page: &mut Page) {
+        page.section("To compute it again");
+        page.verbatim(&self.commands().join("\n"));
+        let searches: usize = self.fronts.iter().map(|front| front.searched.searches).sum();
+        if searches > 0 {
+            page.note(&format!(
+                "{} between the cases are known, from {searches} searches for {}; motions under different conditions are counted apart. \
+                 The commands above make the searches of the default `--starts` and `--seed` alone.",
+                counted(self.fronts.iter().map(|front| front.motions.len()).sum(), "motion"),
+                gain_in_words(self.request.of)
+            ));
+        }
+        page.subsection("Study");
+        let frame = self.request.archive.frame();
         page.verbatim(frame.texts.get(STUDY_TEXT).map_or("", String::as_str));
-        page.part("To compute it again");
+    }
+
+    /// The commands, one a line.
+    fn commands(&self) -> Vec<String> {
+        let Request { file, of, .. } = *self.request;
         let file = quoted(&file.display().to_string());
         let mut commands = vec![
             format!("capsulemap inspect {file} --study > study.toml"),
@@ -166,30 +162,50 @@ impl Report<'_> {
         commands.extend(
             refined.map(|options| format!("capsulemap tradeoff again.h5 {options} --refine")),
         );
-        let of = self.request.of;
         let gain = match of.has_own_gain() {
             true => String::new(),
             false => format!(" --for {}", of.gain.name()),
         };
         commands.push(format!("capsulemap report again.h5 --of {}{gain}", of.cost.name()));
-        page.verbatim(&commands.join("\n"));
-        let searches: usize = self.fronts.iter().map(|front| front.searched.searches).sum();
-        if searches > 0 {
-            page.note(&format!(
-                "{} motions between the cases are known, from {} searches; motions under different conditions are counted apart. \
-                 The commands above make the searches of the default `--starts` and `--seed` alone.",
-                self.fronts.iter().map(|front| front.motions.len()).sum::<usize>(),
-                searches
-            ));
-        }
-        page.part("Where it comes from");
-        let rows = frame.attributes.iter().map(|(key, value)| vec![key.clone(), value.clone()]);
-        page.table(&["", ""].map(str::to_owned), &rows.collect::<Vec<_>>());
-        page.part("To cite it");
-        page.text(&format!("{}.", provenance::program(&frame.attributes)));
-        let model = self.study.base.model();
-        if model.is_or_extends(default_model()) {
+        commands
+    }
+
+    /// Where the results come from, and how to cite them.
+    fn write_origin(&self, page: &mut Page) {
+        let attributes = &self.request.archive.frame().attributes;
+        page.section("Provenance");
+        let text = Prose::from("What the file says of its origin and of the protocol is in ");
+        page.text(text.see(page.next_table()).and("."));
+        let rows = attributes.iter().map(|(key, value)| vec![Cell::text(key), Cell::text(value)]);
+        page.table(&Table {
+            caption: "The attributes of the file.".to_owned(),
+            columns: vec![Column::text("attribute"), Column::long("value")],
+            rows: rows.collect(),
+        });
+        page.section("Citation");
+        page.text(format!("{}.", provenance::program(attributes)));
+        if self.study.base.model().is_or_extends(default_model()) {
             page.text(PAPER);
         }
     }
+}
+
+/// Says which figure shows what, where there are several.
+fn write_list_of_figures(page: &mut Page, drawn: &[(&Drawing, Picture)]) {
+    let Item::Figure(first) = page.next_figure() else { return };
+    match drawn.len() {
+        0 => return,
+        1 => {
+            return page.text(Prose::from("The study asks for ").see(Item::Figure(first)).and("."));
+        }
+        _ => {}
+    }
+    let mut text = Prose::from(format!("The study asks for {}: ", counted(drawn.len(), "figure")));
+    for (place, (drawing, _)) in drawn.iter().enumerate() {
+        let name = mention(drawing);
+        let end = if place + 1 < drawn.len() { ", " } else { "." };
+        text =
+            text.and(&format!("{name} (")).see(Item::Figure(first + place)).and(&format!("){end}"));
+    }
+    page.text(text);
 }

@@ -10,6 +10,11 @@ use crate::store::{Path, paths};
 use crate::study::axis::is_monotone;
 use crate::study::{Coordinate, Drawing};
 
+/// The attribute that keeps the own name of a path that is called after a quantity.
+fn path_called(quantity: &str) -> String {
+    format!("path called {quantity}")
+}
+
 /// Results with what a figure asks of them, their paths called after quantities.
 #[derive(Debug, Clone)]
 pub struct ByQuantities {
@@ -93,6 +98,7 @@ impl ByQuantities {
                 *place = (quantity.to_owned(), axis.clone());
             }
         }
+        self.dataset.attributes.insert(path_called(quantity), path.name.clone());
         let over = self.dataset.variables.values_mut().flat_map(|it| &mut it.dimensions);
         let of_sweep = [INHERITED_ALONG, ATTRACTOR_AXIS];
         let attributes = self.dataset.attributes.iter_mut();
@@ -118,6 +124,26 @@ impl<'a> View<'a> {
             names.extend(variable.filter(|it| it.1.dimensions == [axis]).map(|it| it.0.as_str()));
         }
         names
+    }
+
+    /// What a request may call each axis: a path by its own name, too, and by each quantity along it.
+    pub fn named_along(&self) -> Vec<String> {
+        let names = self.axes().into_iter().map(|axis| {
+            let beside = self.beside(axis);
+            let Some(path) = self.path_of(axis).filter(|_| !beside.is_empty()) else {
+                return axis.to_owned();
+            };
+            let own = (axis != path).then_some(axis);
+            let along: Vec<&str> = own.into_iter().chain(beside).collect();
+            format!("{path} (a path along which go {})", along.join(", "))
+        });
+        names.collect()
+    }
+
+    /// The path that an axis is, by its own name.
+    fn path_of(&self, axis: &'a str) -> Option<&'a str> {
+        let called = self.dataset.attributes.get(&path_called(axis));
+        called.map(String::as_str).or_else(|| named(axis, self.model()).is_none().then_some(axis))
     }
 
     /// How what varies beside an axis goes along it, as its label says it.

@@ -9,6 +9,7 @@ use super::style::{INK, MINOR_WIDTH};
 use super::symbol::MEASURED;
 use super::text::Text;
 use super::view::View;
+use crate::campaign::count::counted;
 
 /// The line from a measured value to the ends of its error.
 const BAR: Stroke = Stroke { colour: INK, width: MINOR_WIDTH, dash: Dash::None };
@@ -34,12 +35,17 @@ impl MeasuredPoint {
 /// The measured points on the panels of a diagram.
 pub struct MeasuredPoints {
     panels: Vec<Vec<MeasuredPoint>>,
+    /// How many rows of each panel have no value on one of its axes, and what is told of it.
+    without: Vec<Option<String>>,
 }
 
 impl MeasuredPoints {
     /// No points of any of the `outputs`.
     pub fn none(outputs: &[String]) -> MeasuredPoints {
-        MeasuredPoints { panels: outputs.iter().map(|_| Vec::new()).collect() }
+        MeasuredPoints {
+            panels: outputs.iter().map(|_| Vec::new()).collect(),
+            without: outputs.iter().map(|_| None).collect(),
+        }
     }
 
     /// Whether there are no points at all.
@@ -69,14 +75,19 @@ impl MeasuredPoints {
             );
             return Err(view.unfit(why));
         }
-        let mut panels = Vec::new();
+        let (mut panels, mut without) = (Vec::new(), Vec::new());
         for output in outputs {
             let names = [x, output.as_str()];
             let factors = names.map(|name| view.quantity(name).factor);
             let errors = names.map(|name| measured.column(&error_of(name)));
             let mut points = Vec::new();
             let ordinates = measured.column(output).unwrap_or(&[]);
+            let mut missing = 0;
             for (row, (x, y)) in abscissae.iter().zip(ordinates).enumerate() {
+                if x.is_nan() || y.is_nan() {
+                    missing += 1;
+                    continue;
+                }
                 let error = |i: usize| errors[i].map_or(f64::NAN, |all| all[row] * factors[i]);
                 points.push(MeasuredPoint {
                     at: (x * factors[0], y * factors[1]),
@@ -84,8 +95,14 @@ impl MeasuredPoints {
                 });
             }
             panels.push(points);
+            without.push((missing > 0).then(|| {
+                let points = counted(missing, "measured point");
+                let verb = if missing == 1 { "is" } else { "are" };
+                let [x, y] = names;
+                format!("{points} without a value of {x} or {y} {verb} left out")
+            }));
         }
-        Ok(MeasuredPoints { panels })
+        Ok(MeasuredPoints { panels, without })
     }
 
     /// The abscissae of all points and of the ends of their errors.
@@ -107,6 +124,7 @@ impl MeasuredPoints {
 
     /// Draws the points of a panel.
     pub fn draw(&self, canvas: &mut Canvas, panel: &Panel, index: usize) {
+        canvas.notes.extend(self.without.get(index).cloned().flatten());
         let Some(points) = self.panels.get(index).filter(|it| !it.is_empty()) else { return };
         canvas.clipped(panel.frame, |canvas| {
             for (along, ends) in points.iter().flat_map(MeasuredPoint::bars) {

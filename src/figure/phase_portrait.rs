@@ -83,6 +83,7 @@ impl<'a> Portraits<'a> {
                 return Err(view.unfit(why));
             }
         };
+        view.check_signals(names.into_iter())?;
         let cases = case_panels(view)?;
         let portraits = cases.iter().map(|panel| Portrait::of(panel, names));
         let portraits = portraits.collect::<Result<_, FigureError>>()?;

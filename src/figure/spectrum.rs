@@ -21,6 +21,7 @@ use super::text::Text;
 use super::view::View;
 use crate::description::{Description, SignalKind};
 use crate::store::catalogue::{Entry, PERIOD, SPECTRUM_FREQUENCY};
+use crate::store::schema::{FROM_START, HISTORY_FROM};
 use crate::study::Drawing;
 
 /// Height of a frame [pt].
@@ -31,6 +32,10 @@ const SHOWN: f64 = 1e-6;
 const MISSED: f64 = 1e-6;
 /// Frequencies are shown up to the last amplitude of this share of the largest, unless limits are set.
 const REACH: f64 = 1e-2;
+
+/// What is said of a spectrum of a history that begins at the start of its case and does not repeat.
+const TRANSIENT: &str =
+    "the history begins at the start of the case, so that the spectrum has the transient in it";
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
@@ -120,7 +125,12 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let about = view.about(&outputs, &[]);
     let mut spans: Vec<String> = spectra.iter().map(|it| it.span.told()).collect();
     spans.dedup();
-    Ok(canvas.finish(&format!("{about}: amplitudes of the spectrum ({})", spans.join(", "))))
+    let begins = view.dataset.attributes.get(HISTORY_FROM);
+    let is_windowed = spectra.iter().any(|it| matches!(it.span, Span::Windowed(_)));
+    let has_transient = is_windowed && begins.is_some_and(|from| from == FROM_START);
+    let drawn =
+        canvas.finish(&format!("{about}: amplitudes of the spectrum ({})", spans.join(", ")));
+    Ok(drawn.noting(has_transient.then(|| TRANSIENT.to_owned())))
 }
 
 impl<'a> Spectra<'a> {
@@ -128,6 +138,7 @@ impl<'a> Spectra<'a> {
     fn of(view: &View<'a>) -> Result<Spectra<'a>, FigureError> {
         let cases = case_panels(view)?;
         let outputs = outputs(view.drawing, view.model());
+        view.check_signals(outputs.iter().map(String::as_str))?;
         let mut spectra = Vec::new();
         for output in &outputs {
             for panel in &cases {

@@ -6,10 +6,10 @@ use crate::description::{Description, Output};
 use crate::study::Drawing;
 use crate::tradeoff::GainAndCost;
 
-/// The names of the gain and of the cost: `of` names the cost first. Unless they are named they are the speed and the work of a
-/// cycle, of a model that has these.
+/// The names of the gain and of the cost: `of` names the cost first. Unless they are named they are the speed and the
+/// power, as for `capsulemap tradeoff`, of a model that has these.
 pub fn names<'d>(drawing: &'d Drawing, model: &'static Description) -> [Option<&'d str>; 2] {
-    let own = model.has_trade_off().then(|| [model.speed(), model.work()].map(Output::name));
+    let own = model.has_trade_off().then(|| [model.speed(), model.power()].map(Output::name));
     let [gain, cost] = own.map_or([None; 2], |own| own.map(Some));
     let mut named = drawing.of.iter().map(String::as_str);
     let cost = named.next().or(cost);

@@ -83,12 +83,38 @@ impl<'a> View<'a> {
             return Ok(());
         }
         if self.dataset.variable(name).is_some() {
-            let known = if axes.is_empty() { "none".to_string() } else { axes.join(", ") };
+            let known = match axes.is_empty() {
+                true => "none".to_owned(),
+                false => self.named_along().join(", "),
+            };
             let why = format!("`{name}` is not an axis of this study (its axes: {known})");
             return Err(self.unfit(why));
         }
-        let present = axes.iter().map(|axis| axis.to_string()).collect();
-        Err(self.missing("axis", name, present))
+        Err(self.missing("axis", name, self.named_along()))
+    }
+
+    /// Checks that each of these names is of a signal, or of a variable that the results have over time.
+    pub fn check_signals<'n>(
+        &self,
+        mut names: impl Iterator<Item = &'n str>,
+    ) -> Result<(), FigureError> {
+        // Where there are none at all, that is what is to be told.
+        if self.coordinate_values(HISTORY_TIME.name).is_empty() {
+            return Ok(());
+        }
+        let (kind, model) = (self.drawing.kind, self.model());
+        let is_over_time = |name: &str| {
+            let dimensions = self.dataset.variable(name).map(|it| &it.dimensions);
+            dimensions.is_some_and(|all| all.iter().any(|it| it == HISTORY_TIME.name))
+        };
+        match names.find(|name| model.signal(name).is_none() && !is_over_time(name)) {
+            None => Ok(()),
+            Some(name) => {
+                let known = kind.can_show(model, &[]).join(", ");
+                let kind = kind.name();
+                Err(self.unfit(format!("a {kind} cannot show `{name}`; it can show {known}")))
+            }
+        }
     }
 
     fn missing(&self, what: &'static str, name: &str, present: Vec<String>) -> FigureError {

@@ -78,12 +78,13 @@ const BOX: usize = 6;
 
 /// The table of a study whose cases differ in their starts alone, or the shares of one along a parameter; empty of any other.
 ///
-/// `final_motions` are those of its cases.
+/// `final_motions` are those of its cases; `begins` is called before the manifolds of so many saddles are followed, if they are.
 pub fn attractor_table(
     study: &Study,
     attractors: &Attractors,
     final_motions: &FinalMotions,
     machine: Machine,
+    begins: impl FnOnce(usize),
 ) -> Result<AttractorTable, RunError> {
     let found = &attractors.of_starts;
     if found.is_empty() {
@@ -112,7 +113,7 @@ pub fn attractor_table(
     let uncertainty = measured.then(|| uncertainty(&shape, label)).flatten();
     let wada = measured.then(|| wada(&shape, label, rows.len())).flatten();
     let mut edges = edges(study, attractors, machine);
-    let manifolds = manifolds(study, attractors, &mut edges, machine);
+    let manifolds = manifolds(study, attractors, &mut edges, machine, begins);
     let inferred = check_starts(study, attractors, final_motions, machine)?;
     let settling = None;
     Ok(AttractorTable {

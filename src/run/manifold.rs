@@ -11,12 +11,14 @@ use crate::study::{Coordinate, Study};
 /// The curves on which the basins of a study meet, and the unstable manifolds of their saddles, which are those among `edges`; those that
 /// are met beside are added to them. None where the study does not ask for them, or an attractor does not repeat.
 ///
-/// Method: see [`ManifoldSearch`](crate::attractor::ManifoldSearch). Inferred starts count as those that are computed.
+/// Method: see [`ManifoldSearch`](crate::attractor::ManifoldSearch). Inferred starts count as those that are computed. `begins` is
+/// called before the search, with the number of saddles, as it is long and tells nothing until it is done.
 pub fn manifolds(
     study: &Study,
     attractors: &Attractors,
     edges: &mut Vec<Edge>,
     machine: Machine,
+    begins: impl FnOnce(usize),
 ) -> Option<Manifolds<Section>> {
     let all_repeat = attractors.of_starts.iter().all(|it| it.outcome == Outcome::Periodic);
     if !study.manifolds || !has_edges(study) || !all_repeat {
@@ -26,6 +28,7 @@ pub fn manifolds(
     let known: Vec<_> = (0..).zip(&attractors.of_starts).collect();
     let leads = study.model().leads(&setting, &study.protocol, machine, &known);
     let saddles: Vec<Saddle<Section>> = edges.iter().map(|it| it.saddle.clone()).collect();
+    begins(saddles.len());
     let mut found = leads.manifolds(&plane(study)?, &attractors.of_case, &saddles);
     let mut places = Vec::new();
     for met in &found.saddles {

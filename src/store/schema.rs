@@ -21,6 +21,11 @@ pub const REMARKS: &str = "study_remarks";
 /// Attribute: differs between studies whose cases differ, see [`Study::fingerprint`].
 pub const FINGERPRINT: &str = "study_fingerprint";
 
+/// Attribute: where histories begin, where that is not where the case has settled: [`FROM_START`].
+pub const HISTORY_FROM: &str = "history_from";
+/// What it says of histories that begin where the case starts.
+pub const FROM_START: &str = "start";
+
 /// Attribute: the axis along which starts were inherited, which is the one that `direction` goes along.
 pub const INHERITED_ALONG: &str = "start_inherited_along";
 
@@ -99,6 +104,9 @@ pub fn frame(study: &Study) -> Dataset {
     dataset.attributes.insert(FINGERPRINT.to_owned(), study.fingerprint());
     if !study.remarks.is_empty() {
         dataset.attributes.insert(REMARKS.to_owned(), study.remarks.join("; "));
+    }
+    if study.protocol.history.is_some_and(|it| it.from_start) {
+        dataset.attributes.insert(HISTORY_FROM.to_owned(), FROM_START.to_owned());
     }
     if let Some(inherit) = study.inherit() {
         let axis = study.axes()[inherit.axis].name();

@@ -34,6 +34,8 @@ struct Holdable<'a> {
     dimension: Dimension,
     /// Between which values (SI).
     range: [f64; 2],
+    /// Whether it is a path by its places, which are counted.
+    is_by_places: bool,
 }
 
 /// What `at` may hold by some name of it.
@@ -49,12 +51,14 @@ fn holdable<'a>(axes: &'a [Axis], name: &str) -> Option<Holdable<'a>> {
             name: it.coordinate.name(),
             dimension: it.coordinate.dimension(),
             range: range(&it.values),
+            is_by_places: false,
         });
         let path = axis.path.as_deref().filter(|path| *path == name).map(|name| Holdable {
             axis: place,
             name,
             dimension: Dimension::Number,
             range: [0.0, axis.places().saturating_sub(1) as f64],
+            is_by_places: true,
         });
         varying.or(path)
     };
@@ -101,9 +105,15 @@ fn value_of(entry: &Entry<'_, '_>, held: &Holdable<'_>) -> Option<f64> {
     if value.is_some_and(|value| !is_within(value, &held.range)) {
         let [low, high] = held.range;
         let found = entry.shown();
-        entry.fault(format!(
-            "expected a value within the axis, from {low} to {high} in SI units, found {found}"
-        ));
+        entry.fault(match held.is_by_places {
+            true => format!(
+                "expected a place along the path, counted from 0, its first, to {high}, its last, found {found}; a quantity along the path \
+                 holds it, too"
+            ),
+            false => format!(
+                "expected a value within the axis, from {low} to {high} in SI units, found {found}"
+            ),
+        });
     }
     value
 }

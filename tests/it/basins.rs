@@ -36,7 +36,8 @@ fn found(study: &Study) -> Found {
     let records = run::run_sample(study, machine, &chains, || ()).expect("the study runs");
     let motions = run::final_motions(study, &records);
     let attractors = run::attractors(study, &motions, machine, || ()).expect("threads");
-    let table = run::attractor_table(study, &attractors, &motions, machine).expect("threads");
+    let table =
+        run::attractor_table(study, &attractors, &motions, machine, |_| ()).expect("threads");
     Found { records, attractors, rows: table.rows.clone(), table }
 }
 

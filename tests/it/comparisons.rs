@@ -123,3 +123,25 @@ fn a_jump_of_the_clock_is_named_and_not_simulated() {
     let told = work.run(&["compare", "short.csv", "fig5.toml"]).done().out;
     assert!(told.contains("a gap of 3.0010 s at t = 0.799000 s"), "{told}");
 }
+
+#[test]
+fn residuals_are_what_is_recorded_less_what_is_simulated() {
+    let (work, _) = rig();
+    let asked = ["compare", "rig/motion.csv", "fig5.toml", "--output", "rig/left", "--residuals"];
+    let told = work.run(&asked).done().out;
+    assert!(told.contains("rig/left.png") && told.contains("rig/left.pdf"), "{told}");
+    let data = fs::read_to_string(work.path("rig/left.csv")).expect("data");
+    assert!(data.contains("with the differences below each signal"), "{data}");
+    let column = |series: &str| -> Vec<f64> {
+        let rows = data.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        // The first signal and its residuals.
+        let own = rows.filter(|row| ["1", "2"].contains(&row[0]) && row.get(1) == Some(&series));
+        own.map(|row| row[3].parse().expect("a number")).collect()
+    };
+    let (recorded, simulated) = (column("recorded"), column("simulated"));
+    let left = column("recorded less simulated");
+    assert!(left.len() > 100 && left.len() == recorded.len(), "{}", left.len());
+    for ((left, recorded), simulated) in left.iter().zip(&recorded).zip(&simulated) {
+        assert!((left - (recorded - simulated)).abs() < 1e-9, "{left} {recorded} {simulated}");
+    }
+}

@@ -10,7 +10,7 @@ use super::program::WorkDir;
 use super::store::say;
 
 /// Whether the packages that drive a browser are there; a printed line where they are not.
-fn has_browser() -> bool {
+pub fn has_browser() -> bool {
     let has = std::env::var("CAPSULEMAP_BROWSER").is_ok();
     if !has {
         say("SKIPPED: no browser (scripts/check.sh installs what drives it)");

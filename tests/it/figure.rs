@@ -30,6 +30,11 @@ pub fn drawing(name: &str, kind: DrawingKind) -> Drawing {
     Drawing::new(name, kind)
 }
 
+/// A trade-off of the speed and the work of a cycle.
+pub fn by_work(name: &str) -> Drawing {
+    Drawing { of: vec!["work_positive".to_owned()], ..drawing(name, DrawingKind::TradeOff) }
+}
+
 #[test]
 fn every_kind_comes_out_in_every_format() {
     let folder = folder("kinds");
@@ -53,8 +58,8 @@ fn every_kind_comes_out_in_every_format() {
         (&plane, of("map-outcome", DrawingKind::Map, "outcome")),
         (&plane, of("map-work", DrawingKind::Map, "work_positive")),
         (&plane, of("map-cost", DrawingKind::Map, "cost_of_transport")),
-        (&plane, drawing("trade-off", DrawingKind::TradeOff)),
-        (&plane, drawing("trade-off-maps", DrawingKind::TradeOffMaps)),
+        (&plane, of("trade-off", DrawingKind::TradeOff, "work_positive")),
+        (&plane, of("trade-off-maps", DrawingKind::TradeOffMaps, "work_positive")),
     ];
     for (dataset, request) in requests {
         let paths = draw(dataset, &request, &into(&folder, &ALL)).unwrap().paths;
@@ -78,7 +83,7 @@ fn the_same_results_give_the_same_bytes() {
     let single = with_history(Fixture::default().real("omega", &[], |_| 20.73), &[], 4.0, 500).0;
     let [first, second] = drawn_twice(&single, &drawing("a", DrawingKind::PhasePortrait), "same");
     assert!(first == second);
-    let [first, second] = drawn_twice(&plane(31, 21), &drawing("b", DrawingKind::TradeOff), "same");
+    let [first, second] = drawn_twice(&plane(31, 21), &by_work("b"), "same");
     assert!(first == second);
     let cloud = cascade(400, 60, false);
     let [first, second] = drawn_twice(&cloud, &drawing("c", DrawingKind::Bifurcation), "same");
@@ -177,12 +182,12 @@ fn awkward_results_are_drawn() {
         &[],
         |_| 2e-3,
     );
-    requests.push((single.0, drawing("trade-off-one", DrawingKind::TradeOff)));
+    requests.push((single.0, by_work("trade-off-one")));
     let none = Fixture::default()
         .coordinate("omega", "rad/s", steps(1.0, 9.0, 5))
         .real("work_positive", &["omega"], |_| f64::NAN)
         .real("progression_speed", &["omega"], |_| f64::NAN);
-    requests.push((none.0, drawing("trade-off-none", DrawingKind::TradeOff)));
+    requests.push((none.0, by_work("trade-off-none")));
 
     let grid = |columns: usize, rows: usize, of: fn(&[usize]) -> f64| {
         Fixture::default()
@@ -255,7 +260,7 @@ fn awkward_results_are_drawn() {
         .integer("period", &["p_d", "phase", "k2"], &[], |i| (i[0] + 5 * i[1] % 12) as i64)
         .0;
     let x = Some("k2".to_string());
-    let coloured = Drawing { x, ..drawing("trade-off-cube", DrawingKind::TradeOff) };
+    let coloured = Drawing { x, ..by_work("trade-off-cube") };
     requests.push((cube.clone(), coloured));
     let at = BTreeMap::from([("k2".to_string(), 9e3)]);
     let of = vec!["period".to_string()];

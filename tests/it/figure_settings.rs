@@ -9,7 +9,7 @@ use capsulemap::study::{
 };
 
 use super::figure::fixtures::{Fixture, OUTCOMES, steps, with_history};
-use super::figure::{drawing, folder, into};
+use super::figure::{by_work, drawing, folder, into};
 
 /// A figure with its text as text, and the data behind it.
 pub fn drawn(dataset: &Dataset, request: &Drawing) -> (String, String) {
@@ -320,7 +320,7 @@ fn a_legend_goes_on_request_and_what_is_left_out_is_still_told() {
     let trade_off = Fixture(speeds([1e-3, 2e-3, f64::NAN, 4e-3, 5e-3, 6e-3]))
         .real("work_positive", &["omega"], |at| at[0] as f64 + 1.0)
         .0;
-    let request = Drawing { legend: false, ..drawing("t", DrawingKind::TradeOff) };
+    let request = Drawing { legend: false, ..by_work("t") };
     let words = labels(&drawn(&trade_off, &request).0).concat();
     assert!(words.contains("without values, left out: 1") && !words.contains("Pareto"), "{words}");
 }
@@ -387,7 +387,7 @@ fn marks_that_are_hidden_are_neither_drawn_nor_explained() {
         .real("work_positive", &["omega"], |at| at[0] as f64 + 1.0)
         .0;
     let hide = ["fronts", "optima"].map(str::to_owned).to_vec();
-    let request = Drawing { hide, ..drawing("t", DrawingKind::TradeOff) };
+    let request = Drawing { hide, ..by_work("t") };
     let words = labels(&drawn(&dataset, &request).0).concat();
     assert!(!words.contains("Pareto") && !words.contains("knee"), "{words}");
 }

@@ -61,7 +61,7 @@ fn unknown_topics_say_what_there_is() {
     for (words, told) in [
         (
             &["sweeep"][..],
-            "unknown topic \"sweeep\" (allowed: a command, study, output, unit or book)",
+            "unknown topic \"sweeep\"; did you mean \"sweep\"? (allowed: a command, study, output, unit or book)",
         ),
         (&["study", "refin"], "unknown key or table of a study \"refin\""),
         (&["output", "speed"], "unknown output \"speed\""),

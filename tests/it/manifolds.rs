@@ -35,7 +35,8 @@ fn found(study: &Study, machine: Machine) -> (Attractors, Manifolds<Section>) {
     let motions = run::final_motions(study, &records);
     let found = run::attractors(study, &motions, machine, || ()).expect("the threads start");
     let mut edges = run::edges(study, &found, machine);
-    let manifolds = run::manifolds(study, &found, &mut edges, machine).expect("they are asked for");
+    let manifolds =
+        run::manifolds(study, &found, &mut edges, machine, |_| ()).expect("they are asked for");
     (found, manifolds)
 }
 
@@ -249,7 +250,9 @@ fn wells(p: f64, points: usize) -> (WorkDir, serde_json::Value) {
     folder.put("duffing.toml", DUFFING);
     let study = WELLS.replace("= P\n", &format!("= {p}\n")).replace("POINTS", &points.to_string());
     folder.put("wells.toml", study);
-    folder.run(&["sweep", "wells.toml", "--no-figures"]).done();
+    let ran = folder.run(&["sweep", "wells.toml", "--no-figures"]).done();
+    // It is long, and nothing else is told meanwhile.
+    assert!(ran.err.contains("their manifolds are followed"), "{}", ran.err);
     let told = folder.run(&["inspect", "results/wells/wells.h5", "--json"]).done().json();
     (folder, told["manifolds"].clone())
 }

@@ -109,11 +109,6 @@ fn measured_points_that_do_not_go_with_a_figure_are_refused() {
             &[],
             "rig.csv: 1 fault\n  line 1: \"omega (mm)\": expected a frequency",
         ),
-        (
-            "omega (Hz),progression_speed (mm/s)\n18,\n",
-            &[],
-            "progression_speed: 1 of 1 rows have no value, the first in line 2",
-        ),
         ("omega (Hz),progression_speed (mm/s)\n", &[], "0 rows of numbers; at least 1"),
         (
             "omega (Hz),progression_speed (mm/s)\n18,1\n",
@@ -129,4 +124,22 @@ fn measured_points_that_do_not_go_with_a_figure_are_refused() {
         assert!(ran.err.contains(message), "{text}: {}", ran.err);
         assert!(!work.path("it.svg").exists());
     }
+}
+
+#[test]
+fn points_without_a_value_are_left_out_and_counted() {
+    let work = results();
+    work.put("rig.csv", "omega (Hz),progression_speed (mm/s)\n18,2\n19,\n,3\n20,-4\n");
+    let draw = ["--of", "progression_speed", "--points", "rig.csv"];
+    let ran = work.run(&[&COMMON[..], &draw].concat()).done();
+    let told = ran.out + &ran.err;
+    assert!(
+        told.contains(
+            "2 measured points without a value of omega or progression_speed are left out"
+        ),
+        "{told}"
+    );
+    let data = fs::read_to_string(work.path("it.csv")).expect("written");
+    let speeds: Vec<f64> = measured(&data).iter().map(|it| it.1).collect();
+    assert_eq!(speeds, [2.0, -4.0]);
 }

@@ -216,7 +216,9 @@ fn figures_name_what_varies_along_a_path() {
         )
     };
     drawn(&["--x", "p_d", "--name", "again"]).done();
-    drawn(&["--x", "delta"]).refused(&["`delta` is not an axis of this study"]);
+    // A path is told by its own name, and by what goes along it.
+    let all = "`delta` is not an axis of this study (its axes: line (a path along which go ";
+    drawn(&["--x", "delta"]).refused(&[all, "p_d, omega)", ", direction)"]);
     dir.run(&[
         "figure",
         "along.h5",
@@ -343,7 +345,7 @@ fn every_fault_of_a_path_is_told() {
         ),
         (
             format!("{line}{ends}[[figures]]\nname = \"f\"\nkind = \"map\"\nat = {{ line = 7 }}\n"),
-            "from 0 to 2",
+            "expected a place along the path, counted from 0, its first, to 2, its last",
         ),
         (
             format!(

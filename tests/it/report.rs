@@ -1,10 +1,15 @@
-//! `capsulemap report`: one page that needs nothing else, with numbers that can be computed again, the same bytes each time.
+//! `capsulemap report`: one page that needs nothing else, in the order of a paper's supplement, with numbers that can be computed
+//! again, the same bytes each time.
 
 use std::fs;
+use std::path::Path;
+use std::process::Command;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
 
+use super::explore_page::has_browser;
 use super::program::WorkDir;
 
 /// A coarse grid with motions in both directions and two figures, one of which waits for branches.
@@ -34,6 +39,145 @@ fn plain(html: &str) -> String {
     html.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&")
 }
 
+/// The rows of the tables whose captions begin so, cell by cell.
+fn tables(html: &str, caption: &str) -> Vec<Vec<Vec<String>>> {
+    let wanted = format!("</b> {caption}");
+    let all = html.split("<div class=\"table").skip(1).filter(|it| it.contains(&wanted));
+    let rows = all.map(|table| {
+        let body = table
+            .split("<tbody>")
+            .nth(1)
+            .expect("a body")
+            .split("</tbody>")
+            .next()
+            .expect("it ends");
+        let cells = |row: &str| -> Vec<String> {
+            let all = row
+                .split(['<', '>'])
+                .skip(1)
+                .step_by(2)
+                .zip(row.split(['<', '>']).skip(2).step_by(2));
+            all.filter(|(tag, _)| tag.starts_with("td") || tag.starts_with("th"))
+                .map(|it| it.1.to_owned())
+                .collect()
+        };
+        body.lines().filter(|it| it.starts_with("<tr>")).map(cells).collect()
+    });
+    rows.collect()
+}
+
+/// A number as it is set.
+fn number(cell: &str) -> f64 {
+    cell.replace('\u{2212}', "-")
+        .replace(' ', "")
+        .parse()
+        .unwrap_or_else(|_| panic!("no number: {cell}"))
+}
+
+#[test]
+fn a_report_is_in_order_and_its_numbers_are_those_of_the_file() {
+    let folder = swept();
+    let html = page(&folder);
+    let order = [
+        "<h1>",
+        "<dl class=\"facts\">",
+        "<h2 id=\"abstract\">",
+        "<h2 id=\"contents\">",
+        "</span>What was computed</h2>",
+        "</span>Outcomes</h2>",
+        "</span>Figures</h2>",
+        "</span>Optima</h2>",
+        "</span>To compute it again</h2>",
+        "</span>Provenance</h2>",
+        "</span>Citation</h2>",
+    ];
+    let places: Vec<usize> =
+        order.iter().map(|it| html.find(it).unwrap_or_else(|| panic!("no {it}"))).collect();
+    assert!(places.is_sorted(), "{places:?}");
+    // Figures and tables are numbered without a gap, and every reference leads to one.
+    for (element, kind) in [("figcaption", "Figure"), ("p class=\"caption\"", "Table")] {
+        let begin = format!("<{element}");
+        let numbers = html.split(&begin).skip(1).map(|it| {
+            let name = it.split("<b>").nth(1).expect("a name").split('.').next().expect("it ends");
+            name.trim_start_matches(kind).trim().parse::<usize>().expect("a number")
+        });
+        let numbers: Vec<usize> = numbers.collect();
+        assert_eq!(numbers, (1..=numbers.len()).collect::<Vec<_>>());
+        assert!(numbers.len() > 2);
+    }
+    for reference in html.split("href=\"#").skip(1) {
+        let id = reference.split('"').next().expect("it ends");
+        assert!(html.contains(&format!("id=\"{id}\"")), "{id}");
+    }
+    // The abstract counts what the file has.
+    let told = plain(html.split("</section>").next().expect("an abstract"));
+    assert!(
+        told.contains(
+            "The file has 24 cases: each combination of 4 values of p_d from 3 to 8\u{a0}N"
+        ),
+        "{told}"
+    );
+    let outcomes = &tables(&html, "What the cases turned out to be.")[0];
+    let all: f64 = outcomes.iter().map(|row| number(&row[1])).sum();
+    let inside = folder.run(&["inspect", FILE]).done().out;
+    let line = inside.lines().find_map(|it| it.strip_prefix("outcomes: ")).expect("outcomes");
+    let counted: Vec<String> =
+        outcomes.iter().map(|row| format!("{} {}", row[1], row[0])).collect();
+    assert_eq!((all, counted.join(", ").as_str()), (24.0, line));
+    for row in outcomes {
+        let name = &row[0];
+        assert!(told.contains(name.as_str()), "{name}: {told}");
+    }
+}
+
+#[test]
+fn a_report_in_a_browser_sorts_copies_prints_and_fits_narrow_screens() {
+    if !has_browser() {
+        return;
+    }
+    let folder = swept();
+    page(&folder);
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/browser/report.mjs");
+    let mut node = Command::new("node");
+    node.arg(script).arg(folder.path(PAGE));
+    if let Ok(kept) = std::env::var("CAPSULEMAP_KEEP") {
+        node.arg(kept);
+    }
+    let done = node.output().expect("node runs");
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let found: Value = serde_json::from_slice(&done.stdout).expect("one JSON object");
+    assert_eq!((&found["console"], &found["axe"]), (&json!([]), &json!([])));
+    let requests = found["requests"].as_array().expect("a list");
+    let is_own = |it: &Value| {
+        it.as_str().is_some_and(|it| it.starts_with("file:") || it.starts_with("data:"))
+    };
+    assert!(requests.iter().all(is_own), "{requests:?}");
+    for (scheme, width) in [("light", 1280), ("dark", 390)] {
+        let view = &found["views"][scheme];
+        assert_eq!(
+            (&view["width"], &view["pdf"], &view["lost"]),
+            (&json!(width), &json!("%PDF"), &json!([])),
+            "{scheme}"
+        );
+        let order = |press: usize| view["orders"][press][0].as_str().expect("an order").to_owned();
+        let numbers = |press: usize| -> Vec<f64> {
+            let cells = view["orders"][press][1].as_array().expect("cells");
+            cells.iter().map(|it| number(it.as_str().expect("a text"))).collect()
+        };
+        assert_eq!([0, 1, 2, 3].map(order), ["none", "ascending", "descending", "none"]);
+        assert!(numbers(1).is_sorted() && numbers(1).len() > 1, "{view}");
+        assert!(numbers(2).iter().rev().is_sorted(), "{view}");
+        assert_eq!(numbers(0), numbers(3));
+        // Tab-separated, with the line of headings.
+        let copied = view["copied"].as_str().expect("a text");
+        let lines: Vec<Vec<&str>> = copied.lines().map(|it| it.split('\t').collect()).collect();
+        assert_eq!(lines[0], ["name", "symbol", "meaning", "value", "unit"], "{copied}");
+        assert_eq!(lines.len(), numbers(1).len() + 1);
+        assert!(lines[1..].iter().all(|it| it[3].parse::<f64>().is_ok()), "{copied}");
+        assert!(view["said"].as_str().is_some_and(|it| it.ends_with(": copied")), "{view}");
+    }
+}
+
 #[test]
 fn a_report_needs_nothing_else_and_its_optima_can_be_computed_again() {
     let folder = swept();
@@ -41,7 +185,7 @@ fn a_report_needs_nothing_else_and_its_optima_can_be_computed_again() {
     let html = page(&folder);
     assert_eq!(page(&folder), html, "other bytes");
     assert!(html.contains("<title>A &lt;small&gt; grid &amp; more</title>"));
-    for outside in ["http", "src=\"/", "<script", "<link", "url("] {
+    for outside in ["http", "src=\"/", "<script src", "<link", "url("] {
         assert!(!html.contains(outside), "{outside}");
     }
     assert!(plain(&html).contains(STUDY), "the study is there");
@@ -52,24 +196,22 @@ fn a_report_needs_nothing_else_and_its_optima_can_be_computed_again() {
     }
     let commands: Vec<&str> = html
         .lines()
-        .map(|it| it.trim_start_matches("<pre>"))
+        .map(|it| it.trim_start_matches("<pre class=\"short\">"))
         .filter(|it| it.starts_with("capsulemap simulate"))
         .collect();
     // Two figures, and of each optimum its history and phase portrait.
     assert_eq!(pictures.len(), 2 + 2 * commands.len(), "{commands:?}");
-    assert_eq!(commands.len(), 6);
-    let row = |name: &str| -> Vec<String> {
-        let rows = html.lines().filter(|it| it.starts_with(&format!("<tr><td>{name}</td>")));
-        let cells = rows.flat_map(|it| it.split("</td><td>").skip(1));
-        cells.map(|it| it.trim_end_matches("</td></tr>").to_owned()).collect()
-    };
-    let told = [row("progression speed [m/s]"), row("power [W]")];
+    assert!((4..=6).contains(&commands.len()), "{commands:?}");
+    let best: Vec<Vec<Vec<String>>> = tables(&html, "The best motions, ");
+    assert_eq!(best.len(), 2);
+    let told = [1, 2]
+        .map(|column| -> Vec<&String> { best.iter().flatten().map(|row| &row[column]).collect() });
     for (place, command) in commands.into_iter().enumerate() {
         let command = plain(command.trim_end_matches("</pre>"));
         let words: Vec<&str> = command.split(' ').skip(1).chain(["--json"]).collect();
         let again = folder.run(&words).done();
         for (key, told) in ["progression_speed", "power"].into_iter().zip(&told) {
-            let (found, told) = (again.printed(key), told[place].parse::<f64>().expect("a number"));
+            let (found, told) = (again.printed(key), number(told[place]));
             assert!((found - told).abs() <= 5e-6 * told.abs(), "{key}: {found} {told}: {command}");
         }
     }

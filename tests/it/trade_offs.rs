@@ -6,7 +6,7 @@ use capsulemap::figure::{Format, draw};
 use capsulemap::study::{Drawing, DrawingKind};
 
 use super::figure::fixtures::{Fixture, OUTCOMES, plane, steps};
-use super::figure::{drawing, folder, into};
+use super::figure::{by_work, drawing, folder, into};
 use super::program::WorkDir;
 
 /// A trade-off over motions with these speeds [m/s] and outcomes.
@@ -18,7 +18,7 @@ fn trade_off(speeds: &[f64], outcomes: &[i64]) -> String {
         .real("progression_speed", &["omega"], move |at| speeds[at[0]])
         .integer("outcome", &["omega"], &OUTCOMES, move |at| outcomes[at[0]])
         .0;
-    let request = drawing("directions", DrawingKind::TradeOff);
+    let request = by_work("directions");
     let paths =
         draw(&dataset, &request, &into(&folder("directions"), &[Format::Svg])).unwrap().paths;
     fs::read_to_string(&paths[0]).unwrap()
@@ -64,6 +64,11 @@ fn a_trade_off_shows_what_was_found_between_the_cases() {
     };
     let alone = drawn();
     assert!(alone.contains(" 0 periodic motions between the cases"));
+    // The power is the cost where none is named, as for the table.
+    folder.run(&["figure", file, "--kind", "trade-off", "--formats", "svg"]).done();
+    let usual = fs::read_to_string(folder.path("results/study/trade-off.svg")).expect("a figure");
+    let about = |svg: &str| svg.split("progression_speed, power").nth(1).map(str::len);
+    assert!(about(&usual).is_some() && about(&alone).is_some(), "{usual}");
     folder.run(&["tradeoff", file, "--refine"]).done();
     let kept = fs::read_to_string(folder.path("results/study/study.searches")).expect("searches");
     let found = kept.matches("\"held_by\"").count();

@@ -10,6 +10,8 @@ const AXIS: &str =
 /// Studies with what is said of them.
 #[rustfmt::skip]
 const STUDIES: &[(&str, &[&str])] = &[
+    ("@~[[axes]]\nname = \"p_d\"\nvalues = [\"1 N\", \"2 N\"]\n[map]\nboundries = true\n", &["map.refine: missing; expected a table of outputs", "map.boundries: unknown key \"boundries\"; did you mean \"boundaries\"?"]),
+    ("@[[axes]]\nname = \"line\"\nfrom = { omega = \"1 rad/s\", delta = \"1 mm\" }\nto = { omega = \"2 rad/s\", delta = \"2 mm\" }\npoints = 5\n[[figures]]\nname = \"a\"\nkind = \"section\"\nat = { line = 300 }\n", &["figures[1].at.line: expected a place along the path, counted from 0, its first, to 4, its last, found 300"]),
     ("[parameters\n", &["line 1: unclosed table, expected `]`"]),
     ("@@m1 = 0.1\n", &["line 6: parameters.m1: 0.1 has no unit; expected a mass in kg, g, mg"]),
     ("@@m1 = \"0.1 N\"\n", &["line 6: parameters.m1: \"0.1 N\" is a force; expected a mass in kg, g, mg"]),
@@ -153,6 +155,11 @@ const COMMANDS: &[(&[&str], &[&str])] = &[
     (&["tradeoff", "ok.h5", "--refine", "--seed", "x"], &["'x' for '--seed <NUMBER>'"]),
     (&["report", "none.h5"], &["none.h5: opening the file: No such file"]),
     (&["completions", "tcsh"], &["'tcsh' for '<SHELL>'", "possible values: bash"]),
+    (&["help", "study", "refin"], &["unknown key or table of a study \"refin\"; did you mean \"refine\"? (allowed: capsulemap help study lists them)"]),
+    (&["help", "study", "basin.erly_decision"], &["\"erly_decision\"; did you mean \"early_decision\"?"]),
+    (&["help", "output", "powr"], &["unknown output \"powr\"; did you mean \"power\"?"]),
+    (&["help", "book", "tradeof"], &["unknown page \"tradeof\"; did you mean \"tradeoff\"? (allowed: capsulemap help book lists them)"]),
+    (&["help", "swep"], &["unknown topic \"swep\"; did you mean \"sweep\"? (allowed: a command, study, output, unit or book)"]),
     (&["frobnicate"], &["unrecognized subcommand 'frobnicate'"]),
     (&["sweep"], &["required arguments were not provided", "<STUDY>"]),
 ];
