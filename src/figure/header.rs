@@ -29,8 +29,6 @@ pub enum Mark {
     Symbol(Symbol),
     /// The symbol of a point of codimension 2.
     Codim2(Codim2Symbol),
-    /// Discs of several colours.
-    Discs([RGBColor; 3], f64),
     /// No mark: the text continues that of the entry before.
     Nothing,
 }
@@ -43,7 +41,7 @@ impl Mark {
                 POINT_WIDTH
             }
             Mark::Codim2(_) => 2.0 * RING,
-            Mark::Line(_) | Mark::Patch(_) | Mark::Filled(_) | Mark::Discs(..) => MARK_WIDTH,
+            Mark::Line(_) | Mark::Patch(_) | Mark::Filled(_) => MARK_WIDTH,
         }
     }
 }
@@ -187,14 +185,6 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
             canvas.line(&[(x, y - 3.0), (x, y + 3.0)], stroke);
         }
         Mark::Disc(colour, radius) => canvas.discs(&[(centre, colour)], radius),
-        Mark::Discs(colours, radius) => {
-            let step = mark.width() / colours.len() as f64;
-            let discs = colours
-                .into_iter()
-                .enumerate()
-                .map(|(place, colour)| ((left + (place as f64 + 0.5) * step, middle), colour));
-            canvas.discs(&discs.collect::<Vec<_>>(), radius);
-        }
         Mark::Ring(colour, radius) => {
             canvas.rings(&[centre], radius, Stroke::solid(colour, CURVE_WIDTH));
         }

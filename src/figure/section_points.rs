@@ -2,7 +2,7 @@
 
 use plotters::style::RGBColor;
 
-use super::basin_colours::colour;
+use super::attractor_colours::Colours;
 use super::canvas::{Canvas, Stroke};
 use super::kind::Names;
 use super::panel::Panel;
@@ -37,13 +37,13 @@ pub struct SectionPoint {
 }
 
 /// The section points of the periodic attractors, by attractor, where the section is at the phase of the starts.
-pub fn section_points(view: &View<'_>, plane: &Plane<'_>) -> Vec<SectionPoint> {
+pub fn section_points(view: &View<'_>, plane: &Plane<'_>, colours: &Colours) -> Vec<SectionPoint> {
     let places = in_plane(view, plane, &of_attractors(view.model()));
     let attractors = view.coordinate_values(ATTRACTOR_INDEX.name).len();
     let cycles = (places.len() / attractors.max(1)).max(1);
     let mut points = Vec::new();
     for (place, at) in places.into_iter().enumerate() {
-        points.push(SectionPoint { at, colour: colour(place / cycles) });
+        points.push(SectionPoint { at, colour: colours.colour(place / cycles) });
     }
     points.retain(|point| is_finite(point.at));
     points

@@ -76,7 +76,7 @@ impl Span {
     /// In words.
     fn told(self) -> String {
         let (count, words) = match self {
-            Span::Period(count) => (count, "lines of the period of"),
+            Span::Period(count) => (count, "Fourier series over"),
             Span::Windowed(count) => (count, "Hann window over"),
         };
         format!("{words} {count} cycle{}", if count == 1 { "" } else { "s" })
@@ -186,7 +186,7 @@ impl Spectrum {
     /// What its marks mean, as far as those of the spectrum before do not say it.
     fn legend(&self, view: &View<'_>, before: Option<&Spectrum>) -> Vec<(Mark, Text)> {
         let drive = (view.shows("drive") && before.is_none())
-            .then(|| (Mark::Line(DRIVE), Text::plain("drive")));
+            .then(|| (Mark::Line(DRIVE), Text::plain("drive frequency")));
         let span = before
             .is_none_or(|it| it.span != self.span)
             .then(|| (Mark::Nothing, Text::plain(&self.span.told())));
