@@ -6,7 +6,7 @@ use super::attractors::{Attractors, Look};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::cloud::Dot;
-use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, has_points, paint};
+use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, has_points, numbers, paint};
 use super::error::FigureError;
 use super::event_marks::EventMarks;
 use super::geometry::Rect;
@@ -112,7 +112,7 @@ fn points(
     attractors: &Attractors<'_>,
     looks: &[Look],
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
-    let numbers: Vec<f64> = view.shown(output, &attractors.free)?.iter().copied().collect();
+    let numbers = numbers(view, output, &attractors.free)?;
     let mut clouds: Vec<Vec<Dot>> = looks.iter().map(|_| Vec::new()).collect();
     for case in 0..contents.cases.count() {
         let look = attractors.look(case);

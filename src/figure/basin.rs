@@ -19,7 +19,7 @@ use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
 use super::section_points::{
-    self, RADIUS, SectionPoint, draw_saddles, draw_section_points, saddles, section_points,
+    self, RADIUS, SectionPoint, behind, draw_saddles, draw_section_points, saddles, section_points,
 };
 use super::style::{INK, NOT_YET, OTHER_ATTRACTOR, REFERENCE_WIDTH, UNDECIDED};
 use super::text::Text;
@@ -51,9 +51,13 @@ fn reads(_: &Drawing, model: &'static Description) -> Names {
 
 /// Draws the basins that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let basins = Basins::of(view)?;
-    let panel = basins.request(view);
-    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Outward);
+    let mut basins = Basins::of(view)?;
+    // Which points lie behind others is known once the panel has its place.
+    let page = PageRequest::of_one(view.drawing, basins.request(view), HEIGHT, Pointing::Outward);
+    let (_, panels) = page.lay_out();
+    let each = panels.iter().flatten();
+    basins.behind = each.map(|it| behind(it, &basins.points, &basins.saddles)).sum();
+    let page = PageRequest::of_one(view.drawing, basins.request(view), HEIGHT, Pointing::Outward);
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         basins.draw(&mut canvas, panel);
@@ -82,6 +86,8 @@ struct Basins<'a> {
     points: Vec<SectionPoint>,
     /// The section points of saddles.
     saddles: Vec<(f64, f64)>,
+    /// How many of both lie behind others.
+    behind: usize,
     /// Their manifolds.
     curves: Curves,
     /// The ends of the lines where the mass reaches its stops.
@@ -119,6 +125,7 @@ impl<'a> Basins<'a> {
             },
             saddles: if view.shows("saddles") { saddles(view, &plane) } else { Vec::new() },
             curves: if view.shows("manifolds") { Curves::of(view, &plane) } else { Curves::none() },
+            behind: 0,
             surfaces: match view.shows("impact-surface") {
                 true => surfaces(view, &plane),
                 false => Vec::new(),
@@ -184,6 +191,10 @@ impl<'a> Basins<'a> {
             let more = if is_projected { ", projected alike" } else { "" };
             let words = Text::plain(&format!("saddles on the boundary{more}"));
             legend.push((Mark::Ring(INK, RADIUS), words));
+        }
+        if self.behind > 0 {
+            let words = format!("of these points, behind others: {}", self.behind);
+            legend.push((Mark::Nothing, Text::plain(&words)));
         }
         legend.extend(self.curves.legend());
         if !self.surfaces.is_empty() {

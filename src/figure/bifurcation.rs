@@ -7,7 +7,7 @@ use super::attractors::Attractors;
 use super::branch_lines::faded;
 use super::canvas::Drawn;
 use super::cloud::Dot;
-use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, has_points, paint};
+use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, has_points, numbers, paint};
 use super::error::FigureError;
 use super::header::{self, Mark};
 use super::kind::{Kind, Names, Needs};
@@ -183,7 +183,7 @@ fn points(
     if is_continued && (values.is_empty() || view.dataset.variable(output).is_none()) {
         return Ok(branches.iter().map(|_| Vec::new()).collect());
     }
-    let numbers: Vec<f64> = view.shown(output, free)?.iter().copied().collect();
+    let numbers = numbers(view, output, free)?;
     let outcomes = Outcomes::over(view, free)?;
     let mut clouds = Vec::new();
     for branch in branches {

@@ -13,7 +13,7 @@ use super::panel::{Panel, Pointing};
 use super::style::{CURVE_WIDTH, PAPER};
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
-use super::thinned::{Placed, Special, Thinned, told};
+use super::thinned::{Placed, Special, Thinned, with_told};
 use super::track::{Rows, elsewhere, in_view};
 use super::varied::{along, varied};
 use super::view::View;
@@ -77,7 +77,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (_, panels) = page(view, &axes, &curves, header.clone()).lay_out();
     let each = panels.iter().flatten().map(|panel| Thinned::of(panel, specials(&curves)));
     let thinned: Vec<Thinned> = each.collect();
-    let legend = [header.legend, told(&thinned)].concat();
+    let legend = with_told(header.legend, &thinned);
     let header = Header { legend, ..header };
     let (mut canvas, panels) = page(view, &axes, &curves, header).lay_out();
     for (panel, thinned) in panels.iter().flatten().zip(&thinned) {
@@ -300,10 +300,10 @@ pub fn legend(curves: &[Curve]) -> Vec<header::Entry> {
         .rev()
         .filter(|symbol| curves.iter().any(|it| it.symbol == *symbol && !it.specials.is_empty()));
     let begun: Vec<Symbol> = begun.collect();
-    for (place, symbol) in begun.iter().enumerate() {
-        let more = if place + 1 == begun.len() { " from which a curve is followed" } else { "" };
-        let words = format!("{}{more}", symbol.words);
-        legend.push((Mark::Symbol(*symbol), Text::plain(&words)));
+    let symbols = begun.iter().map(|it| (Mark::Symbol(*it), Text::plain(it.words)));
+    legend.extend(symbols);
+    if !begun.is_empty() {
+        legend.push((Mark::Nothing, Text::plain("(points from which curves are followed)")));
     }
     legend.extend(met(curves).map(|it| (Mark::Codim2(it), Text::plain(it.words))));
     legend
@@ -346,14 +346,15 @@ pub enum Ground {
 /// Draws the curves.
 pub fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve], ground: Ground) {
     let periods = periods(curves);
+    // Below all, so that no rim hides a curve.
+    for curve in curves.iter().filter(|_| ground == Ground::Colours) {
+        let width = curve.stroke(&periods).width + RIM;
+        panel.curve(canvas, &curve.points, Stroke::solid(PAPER, width));
+    }
     // The dashed go over the solid, so that both show where they run together.
     for symbol in SYMBOLS.into_iter().rev() {
         for curve in curves.iter().filter(|curve| curve.symbol == symbol) {
-            let stroke = curve.stroke(&periods);
-            if ground == Ground::Colours {
-                panel.curve(canvas, &curve.points, Stroke::solid(PAPER, stroke.width + RIM));
-            }
-            panel.curve(canvas, &curve.points, stroke);
+            panel.curve(canvas, &curve.points, curve.stroke(&periods));
             let series = format!("{}, period {}", symbol.words, curve.period);
             panel.record(canvas, &series, curve.points.iter().copied());
         }

@@ -19,11 +19,11 @@ use super::ramp_points::RampPoints;
 use super::scale::{Scale, Spacing, finite_range};
 use super::style::{ONE_COLUMN, UNDECIDED_DOT};
 use super::text::Text;
-use super::thinned::{Placed, Thinned, told};
+use super::thinned::{Placed, Thinned, with_told};
 use super::track::elsewhere;
 use super::view::View;
 use super::without_period::WithoutPeriod;
-use crate::store::catalogue::{ATTRACTOR, Place};
+use crate::store::catalogue::{ATTRACTOR, PERIOD, Place};
 use crate::study::Drawing;
 
 /// Height of the frames of section coordinates [pt].
@@ -199,7 +199,7 @@ impl<'a> Diagram<'a> {
         // Which symbols would overlap is known once the panels have their places; what is said of them stands beside the panels.
         let (_, panels) = self.laid_out(view, legend.clone());
         let thinned = self.thinned(&panels);
-        let (mut canvas, panels) = self.laid_out(view, [legend, told(&thinned)].concat());
+        let (mut canvas, panels) = self.laid_out(view, with_told(legend, &thinned));
         for (index, panel) in panels.iter().flatten().enumerate() {
             below(&mut canvas, panel, &outputs[index]);
             self.draw_points(&mut canvas, panel, index, view.drawing, style);
@@ -349,6 +349,13 @@ pub fn has_points(view: &View<'_>, output: &str) -> bool {
     });
     let on_branches = view.dataset.variable(&Place::Branch.name(output));
     of_cases || on_branches.is_some_and(|variable| variable.dimensions.len() > 1)
+}
+
+/// The numbers of an output over the axes `free`, in the unit shown; a motion that does not repeat has no period, which files have as 0.
+pub fn numbers(view: &View<'_>, output: &str, free: &[&str]) -> Result<Vec<f64>, FigureError> {
+    let is_period = output == PERIOD.name;
+    let numbers = view.shown(output, free)?.into_iter();
+    Ok(numbers.map(|it| if is_period && it < 1.0 { f64::NAN } else { it }).collect())
 }
 
 /// The colours of the cases, where the request names what tells them; attractors have colours of their own.

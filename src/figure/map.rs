@@ -18,7 +18,7 @@ use super::quantity::Quantity;
 use super::raster::Fill;
 use super::style::{ONE_COLUMN, TWO_COLUMNS};
 use super::text::Text;
-use super::thinned::{Thinned, told};
+use super::thinned::{Thinned, with_told};
 use super::ticks::short;
 use super::view::View;
 use crate::description::Description;
@@ -199,8 +199,10 @@ impl<'a> Map<'a> {
         legend.extend(self.plane.legend());
         legend.extend(self.contours.legend());
         legend.extend(curves::legend(&self.curves));
-        legend.extend(told(self.thinned.as_slice()));
-        legend
+        match &self.thinned {
+            Some(thinned) => with_told(legend, std::slice::from_ref(thinned)),
+            None => legend,
+        }
     }
 
     /// Draws the cells of a panel, by its number, and the lines over them.

@@ -4,6 +4,7 @@ use plotters::style::RGBColor;
 
 use super::attractor_colours::Colours;
 use super::canvas::{Canvas, Stroke};
+use super::geometry::Point;
 use super::kind::Names;
 use super::panel::Panel;
 use super::plane::Plane;
@@ -86,6 +87,16 @@ fn along(view: &View<'_>, axis: &str, columns: &[Vec<f64>]) -> Vec<f64> {
     let points = columns.first().map_or(0, Vec::len);
     let values = place.map_or(vec![0.0; points], |place| columns[place].clone());
     values.into_iter().map(|value| value * factor).collect()
+}
+
+/// How many section points of attractors and of saddles lie behind others: the middle of one that is drawn later is on them.
+pub fn behind(panel: &Panel, points: &[SectionPoint], saddles: &[(f64, f64)]) -> usize {
+    let points = points.iter().map(|it| it.at).chain(saddles.iter().copied());
+    let places: Vec<Point> = panel.places(&points.collect::<Vec<_>>());
+    let is_behind = |(place, at): &(usize, &Point)| {
+        places[place + 1..].iter().any(|it| (it.0 - at.0).hypot(it.1 - at.1) < RADIUS)
+    };
+    places.iter().enumerate().filter(is_behind).count()
 }
 
 /// Draws section points, those of each attractor in its colour.

@@ -4,6 +4,7 @@ use super::canvas::Canvas;
 use super::codim2_symbol::{Codim2Symbol, RING};
 use super::geometry::Point;
 use super::header::{Entry, Mark};
+use super::page::letter;
 use super::panel::Panel;
 use super::symbol::{RADIUS, SYMBOLS, Symbol};
 use super::text::Text;
@@ -117,6 +118,11 @@ impl Thinned {
         }
     }
 
+    /// Whether a kind is among those that are drawn.
+    fn draws(&self, special: Special) -> bool {
+        self.drawn.iter().any(|it| it.0 == special)
+    }
+
     /// Whether some are left out.
     fn is_thinned(&self) -> bool {
         !self.left_out.is_empty()
@@ -130,18 +136,28 @@ impl Thinned {
     }
 }
 
-/// What is said of symbols that are left out on some of the panels of a page.
-pub fn told(panels: &[Thinned]) -> Vec<Entry> {
+/// A legend of the panels of a page without the symbols that stand on none of them, and with what is said of those that are left out.
+pub fn with_told(legend: Vec<Entry>, panels: &[Thinned]) -> Vec<Entry> {
+    let is_drawn = |special: Special| panels.iter().any(|it| it.draws(special));
+    let stays = |(mark, _): &Entry| match mark {
+        // Optima and measured points are none of the special points.
+        Mark::Symbol(symbol) => symbol.name.is_empty() || is_drawn(Special::One(*symbol)),
+        Mark::Codim2(symbol) => is_drawn(Special::Two(*symbol)),
+        _ => true,
+    };
+    let mut entries: Vec<Entry> = legend.into_iter().filter(stays).collect();
+    entries.extend(told(panels));
+    entries
+}
+
+/// How many symbols are left out on the panels of a page, if any are.
+fn told(panels: &[Thinned]) -> Option<Entry> {
     let mut told: Vec<String> = Vec::new();
     for (place, thinned) in panels.iter().enumerate().filter(|(_, it)| it.is_thinned()) {
-        let letter = super::page::letter(place, panels.len());
-        let letter = letter.map_or(String::new(), |letter| format!("({letter}) "));
+        let letter = letter(place, panels.len());
+        let letter = letter.map_or(String::new(), |letter| format!("({letter})\u{a0}"));
         told.push(format!("{letter}{}", thinned.told()));
     }
-    if told.is_empty() {
-        return Vec::new();
-    }
-    let words = format!("left out where symbols would overlap: {}", told.remove(0));
-    let all = std::iter::once(words).chain(told);
-    all.map(|words| (Mark::Nothing, Text::plain(&words))).collect()
+    let words = format!("left out where symbols would overlap: {}", told.join("; "));
+    (!told.is_empty()).then(|| (Mark::Nothing, Text::plain(&words)))
 }

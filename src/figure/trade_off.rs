@@ -185,7 +185,8 @@ impl TradeOff<'_, '_> {
         let mut legend: Vec<Entry> = self.fronts.iter().flat_map(Front::legend).collect();
         if let Some(most) = self.view.drawing.budget {
             let cost = self.view.quantity(self.of.cost.name());
-            let words = Text::plain("budget, ").then(cost.note(most));
+            let value = cost.rounded(most).then(Text::plain("\u{a0}")).then(cost.unit());
+            let words = Text::plain("budget ").then(value);
             legend.push((Mark::Line(BUDGET), words));
         }
         if self.fronts.iter().any(|front| front.motions.between() > 0) {
