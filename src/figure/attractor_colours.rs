@@ -12,6 +12,8 @@ use crate::study::{AttractorColours, Colour, Coordinate};
 
 /// How much paper the colour of a basin has, so that the points of its attractor stand out.
 const TINT: f64 = 0.45;
+/// The same of the colours that figures choose: so that basins can be told apart in grey, too.
+const TINTS: [f64; ATTRACTORS.len()] = [0.30, 0.65, 0.40, 0.75, 0.20, 0.85, 0.15];
 
 /// The colours of the attractors along the line of the results that a figure shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,13 +121,17 @@ fn shown(Colour([red, green, blue]): Colour) -> RGBColor {
 }
 
 /// A colour with paper in it.
-pub fn tinted(RGBColor(red, green, blue): RGBColor) -> RGBColor {
-    RGBColor(with_paper(red), with_paper(green), with_paper(blue))
+pub fn tinted(colour: RGBColor) -> RGBColor {
+    let place = ATTRACTORS.iter().position(|it| *it == colour);
+    let tint = place.map_or(TINT, |place| TINTS[place]);
+    let RGBColor(red, green, blue) = colour;
+    let [red, green, blue] = [red, green, blue].map(|channel| with_paper(channel, tint));
+    RGBColor(red, green, blue)
 }
 
-fn with_paper(channel: u8) -> u8 {
+fn with_paper(channel: u8, tint: f64) -> u8 {
     let RGBColor(white, ..) = PAPER;
-    (f64::from(channel) * (1.0 - TINT) + f64::from(white) * TINT).round() as u8
+    (f64::from(channel) * (1.0 - tint) + f64::from(white) * tint).round() as u8
 }
 
 #[cfg(test)]
@@ -136,6 +142,17 @@ mod tests {
     fn the_first_names_are_the_colours_that_figures_choose() {
         for (colour, (name, named)) in ATTRACTORS.into_iter().zip(Colour::NAMES) {
             assert_eq!(colour, shown(named), "{name}");
+        }
+    }
+
+    #[test]
+    fn the_basins_of_three_attractors_differ_in_grey() {
+        let grey = |RGBColor(red, green, blue): RGBColor| {
+            0.2126 * f64::from(red) + 0.7152 * f64::from(green) + 0.0722 * f64::from(blue)
+        };
+        let of_three = [0, 1, 2].map(|number| grey(tinted(ATTRACTORS[number])));
+        for (a, b) in [(0, 1), (0, 2), (1, 2)] {
+            assert!((of_three[a] - of_three[b]).abs() > 25.0, "{of_three:?}");
         }
     }
 
