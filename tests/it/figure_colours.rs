@@ -97,6 +97,7 @@ fn a_study_sets_the_colours_of_all_its_figures() {
     let text = "[colours]\n0 = \"black\"\n3 = \"#ff8000\"\n\n\
                 [[axes]]\nname = \"omega\"\nfrom = \"10 rad/s\"\nto = \"60 rad/s\"\npoints = 6\n\n\
                 [[axes]]\nname = \"start_r\"\nfrom = \"-1 mm\"\nto = \"1 mm\"\npoints = 4\n\n\
+                [parameters]\nk2 = \"10 kN/m\"\ndelta = \"1 mm\"\np_d = \"3 N\"\n\n\
                 [[figures]]\nname = \"a\"\nkind = \"bifurcation\"\ncolours = { 0 = \"sand\" }\n\n\
                 [[figures]]\nname = \"b\"\nkind = \"shares\"\n\n\
                 [[figures]]\nname = \"c\"\nkind = \"trade-off\"\nbudget = \"20 mJ\"\ncolour_by = \"attractor\"\n\n\
