@@ -6,7 +6,7 @@ use super::attractors::{Attractors, Look};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::cloud::Dot;
-use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, has_points, numbers, paint};
+use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, has_points, paint};
 use super::error::FigureError;
 use super::event_marks::EventMarks;
 use super::geometry::Rect;
@@ -17,6 +17,7 @@ use super::scale::Scale;
 use super::style::{COEXISTENCE, FAINT_INK, MINOR_WIDTH};
 use super::text::Text;
 use super::view::View;
+use super::without_period::numbers;
 use crate::description::Description;
 use crate::store::catalogue::{Entry, section};
 

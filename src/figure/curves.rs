@@ -74,12 +74,13 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let note = view.note(&[drawn[0], drawn[1], DIRECTION.name], &left_out);
     // Which symbols would overlap is known once the panel has its place.
     let header = Header { letter: None, note, legend: legend(&curves) };
-    let (_, panels) = page(view, &axes, &curves, header.clone()).lay_out();
+    let panel = panel(view, &axes, &curves, header);
+    let (_, panels) = page(view, panel.clone()).lay_out();
     let each = panels.iter().flatten().map(|panel| Thinned::of(panel, specials(&curves)));
     let thinned: Vec<Thinned> = each.collect();
-    let legend = with_told(header.legend, &thinned);
-    let header = Header { legend, ..header };
-    let (mut canvas, panels) = page(view, &axes, &curves, header).lay_out();
+    let legend = with_told(panel.header.legend, &thinned);
+    let panel = PanelRequest { header: Header { legend, ..panel.header }, ..panel };
+    let (mut canvas, panels) = page(view, panel).lay_out();
     for (panel, thinned) in panels.iter().flatten().zip(&thinned) {
         draw_curves(&mut canvas, panel, &curves, Ground::Paper);
         thinned.draw(&mut canvas, panel);
@@ -91,20 +92,19 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     Ok(canvas.finish(&view.about(&names, &drawn)).noting(left_out))
 }
 
-/// The page of curves over two parameters.
-fn page<'d>(
-    view: &View<'d>,
-    axes: &[String; 2],
-    curves: &[Curve],
-    header: Header,
-) -> PageRequest<'d> {
+/// The panel of curves over two parameters. To ask for an axis counts what has no place on it, so that this is done once.
+fn panel(view: &View<'_>, axes: &[String; 2], curves: &[Curve], header: Header) -> PanelRequest {
     let places = curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.specials));
     let (x, y): (Vec<f64>, Vec<f64>) = places.copied().unzip();
-    let panel = PanelRequest {
+    PanelRequest {
         x: AxisRequest::around(view.quantity(&axes[0]), &x, 0.03),
         y: AxisRequest::around(view.quantity(&axes[1]), &y, 0.03),
         header,
-    };
+    }
+}
+
+/// The page of a panel.
+fn page<'d>(view: &View<'d>, panel: PanelRequest) -> PageRequest<'d> {
     PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Inward)
 }
 

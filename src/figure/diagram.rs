@@ -23,7 +23,7 @@ use super::thinned::{Placed, Thinned, with_told};
 use super::track::elsewhere;
 use super::view::View;
 use super::without_period::WithoutPeriod;
-use crate::store::catalogue::{ATTRACTOR, PERIOD, Place};
+use crate::store::catalogue::{ATTRACTOR, Place};
 use crate::study::Drawing;
 
 /// Height of the frames of section coordinates [pt].
@@ -197,9 +197,10 @@ impl<'a> Diagram<'a> {
         let Contents { cases, outputs, lines, paint, measured, .. } = &self.contents;
         let legend = self.with_others(legend);
         // Which symbols would overlap is known once the panels have their places; what is said of them stands beside the panels.
-        let (_, panels) = self.laid_out(view, legend.clone());
+        let rows = self.rows(view);
+        let (_, panels) = self.laid_out(view, rows.clone(), legend.clone());
         let thinned = self.thinned(&panels);
-        let (mut canvas, panels) = self.laid_out(view, with_told(legend, &thinned));
+        let (mut canvas, panels) = self.laid_out(view, rows, with_told(legend, &thinned));
         for (index, panel) in panels.iter().flatten().enumerate() {
             below(&mut canvas, panel, &outputs[index]);
             self.draw_points(&mut canvas, panel, index, view.drawing, style);
@@ -216,12 +217,17 @@ impl<'a> Diagram<'a> {
         canvas.finish(&about).noting(self.left_out.clone()).noting(outside)
     }
 
-    /// The page with a `legend`, and its panels in their places.
-    fn laid_out(&self, view: &View<'_>, legend: Vec<header::Entry>) -> (Canvas, Vec<Vec<Panel>>) {
+    /// The page of these rows with a `legend`, and its panels in their places.
+    fn laid_out(
+        &self,
+        view: &View<'_>,
+        rows: Vec<PanelRequest>,
+        legend: Vec<header::Entry>,
+    ) -> (Canvas, Vec<Vec<Panel>>) {
         let paint = self.contents.paint.as_ref();
         let page = PageRequest {
             right_room: &|height| paint.map_or(0.0, |it| it.room(height)),
-            ..self.request(view, legend)
+            ..self.request(view, rows, legend)
         };
         page.lay_out()
     }
@@ -257,30 +263,43 @@ impl<'a> Diagram<'a> {
         }
     }
 
-    /// The page with a row for each output, and the legend above the first.
-    fn request<'d>(&self, view: &View<'d>, legend: Vec<header::Entry>) -> PageRequest<'d> {
-        let Contents { cases, outputs, .. } = &self.contents;
+    /// A row for each output. To ask for an axis counts what has no place on it, so that this is done once.
+    fn rows(&self, view: &View<'_>) -> Vec<PanelRequest> {
+        let outputs = &self.contents.outputs;
         let mut rows = Vec::new();
-        let mut heights = Vec::new();
         for (index, output) in outputs.iter().enumerate() {
             let ordinates = self.contents.ordinates(index);
             let y = AxisRequest::around(view.quantity(output), &ordinates, 0.06);
             let last = index + 1 == outputs.len();
             let x = AxisRequest { labelled: last, numbered: last, ..self.abscissa.clone() };
             let letter = letter(index, outputs.len());
-            rows.push(vec![PanelRequest { x, y, header: Header { letter, ..Header::default() } }]);
-            heights.push(if has_points(view, output) { SECTION_HEIGHT } else { OUTPUT_HEIGHT });
+            rows.push(PanelRequest { x, y, header: Header { letter, ..Header::default() } });
         }
+        rows
+    }
+
+    /// The page of these rows, with the legend above the first.
+    fn request<'d>(
+        &self,
+        view: &View<'d>,
+        mut rows: Vec<PanelRequest>,
+        legend: Vec<header::Entry>,
+    ) -> PageRequest<'d> {
+        let Contents { cases, outputs, .. } = &self.contents;
         let note = view.note(&cases.free, &self.left_out);
-        if let Some(first) = rows.first_mut().and_then(|row| row.first_mut()) {
+        if let Some(first) = rows.first_mut() {
             first.header.note = note;
             first.header.legend = legend;
         }
+        let heights = outputs.iter().map(|output| match has_points(view, output) {
+            true => SECTION_HEIGHT,
+            false => OUTPUT_HEIGHT,
+        });
         PageRequest {
             drawing: view.drawing,
             width_mm: ONE_COLUMN,
-            heights,
-            rows,
+            heights: heights.collect(),
+            rows: rows.into_iter().map(|row| vec![row]).collect(),
             column_room: NO_ROOM,
             right_room: NO_ROOM,
             bottom_room: 0.0,
@@ -349,13 +368,6 @@ pub fn has_points(view: &View<'_>, output: &str) -> bool {
     });
     let on_branches = view.dataset.variable(&Place::Branch.name(output));
     of_cases || on_branches.is_some_and(|variable| variable.dimensions.len() > 1)
-}
-
-/// The numbers of an output over the axes `free`, in the unit shown; a motion that does not repeat has no period, which files have as 0.
-pub fn numbers(view: &View<'_>, output: &str, free: &[&str]) -> Result<Vec<f64>, FigureError> {
-    let is_period = output == PERIOD.name;
-    let numbers = view.shown(output, free)?.into_iter();
-    Ok(numbers.map(|it| if is_period && it < 1.0 { f64::NAN } else { it }).collect())
 }
 
 /// The colours of the cases, where the request names what tells them; attractors have colours of their own.
