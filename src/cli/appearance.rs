@@ -8,9 +8,10 @@ use super::arguments::plain_or_quantity;
 use crate::quantity::Dimension;
 use crate::quantity::units::parse_in;
 use crate::study::appearance::SettingText;
+use crate::study::colour::attractor_number;
 use crate::study::document::unknown;
 use crate::study::drawing::check_text;
-use crate::study::{Drawing, Setting, Size};
+use crate::study::{Colour, Drawing, Setting, Size};
 
 /// The dimension of the quantity of this name, or what is wrong with the name.
 pub type DimensionOf<'a> = &'a dyn Fn(&str) -> Result<Dimension, String>;
@@ -35,6 +36,10 @@ pub struct Appearance {
     /// events, special-points, section-points, saddles, manifolds, impact-surface, fronts, optima.
     #[arg(long, value_delimiter = ',', requires = "kind")]
     hide: Vec<String>,
+    /// Colours of attractors by their numbers in the file, as 0=blue,2=#d55e00; the others have those that the figures of the study
+    /// set, or else those that figures choose.
+    #[arg(long, value_name = "NUMBER=COLOUR,...", value_delimiter = ',', requires = "kind")]
+    colours: Vec<String>,
     /// Words that stand in the figure where the quantities along both axes have these values.
     #[arg(long, value_name = "WORDS: NAME=VALUE, NAME=VALUE", requires = "kind")]
     text: Vec<String>,
@@ -93,6 +98,13 @@ impl Appearance {
         self.set_sizes(&mut drawing, &mut faults);
         let checked = self.dpi.map_or(Ok(()), |dpi| Size::Resolution.check(dpi));
         faults.extend(checked.err().map(|fault| format!("--dpi: {fault}")));
+        let colours = self.colours.iter().map(|text| numbered(text));
+        for colour in colours {
+            match colour {
+                Ok((number, colour)) => drop(drawing.colours.insert(number, colour)),
+                Err(fault) => faults.push(format!("--colours {fault}")),
+            }
+        }
         for text in &self.text {
             match placed(text, dimension_of) {
                 Ok((words, at)) => drop(drawing.texts.insert(words, at)),
@@ -139,6 +151,16 @@ impl Appearance {
             Setting::Contours => &self.contours,
         }
     }
+}
+
+/// The colour of an attractor, behind its number.
+fn numbered(text: &str) -> Result<(u32, Colour), String> {
+    let fault = |why: String| format!("{text}: {why}");
+    let (number, colour) = text
+        .split_once('=')
+        .ok_or_else(|| fault("expected NUMBER=COLOUR, as 0=blue".to_owned()))?;
+    let number = attractor_number(number.trim()).map_err(fault)?;
+    Ok((number, Colour::parse(colour.trim()).map_err(fault)?))
 }
 
 /// A length [mm]; a plain number is in millimetres.

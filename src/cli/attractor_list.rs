@@ -102,7 +102,7 @@ pub fn tables(dataset: &Dataset) -> String {
 fn write_attractors(text: &mut String, dataset: &Dataset, attractors: &[Value]) {
     let (outputs, main) = (dataset.model().gain_and_work(), dataset.model().main_output());
     let headings: Vec<String> = outputs.iter().map(|it| heading(*it, *it == main)).collect();
-    text.push_str("\nattractors, by their numbers in the file; figures count from 1\n");
+    text.push_str("\nattractors, by their numbers in the file and in figures\n");
     let _ = writeln!(
         text,
         "  {:>3}  {:<14} {}  share of the starts",

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::appearance::Appearance;
-use super::arguments::{named, plain_or_quantity};
+use super::arguments::{named, plain_or_quantity, read_quantity};
 use super::drawing::{FormatChoice, draw_each, draw_from, formats};
 use super::failure::Failure;
 use super::files;
@@ -20,7 +20,8 @@ use crate::store::{self, Archive, StoreError, catalogue, paths_of};
 use crate::study::appearance::dimension_of;
 use crate::study::document::unknown;
 use crate::study::{
-    COLOURED_BY, Coordinate, Drawing, DrawingKind, Held, Study, Sweep, check_panels, free_name,
+    AttractorColours, COLOURED_BY, Coordinate, Drawing, DrawingKind, Held, Study, Sweep,
+    check_panels, free_name,
 };
 
 const EXAMPLES: &str = "\
@@ -64,6 +65,9 @@ pub struct Figure {
     /// Cycles that a history shows, as 0,5.
     #[arg(long, value_name = "FROM,TO", value_delimiter = ',', requires = "kind")]
     cycles: Vec<f64>,
+    /// The most of the cost that may be spent, at which a trade-off has a line; in SI unless another unit is named, as "20 mW".
+    #[arg(long, value_name = "VALUE", requires = "kind", allow_hyphen_values = true)]
+    budget: Option<String>,
     /// Measured points over a bifurcation diagram: a CSV file with a column of its axis and one for each measured output, with
     /// their units, as "omega [rad/s],progression_speed [mm/s]"; a column as progression_speed_error has their errors, half the length of a bar each.
     #[arg(long, value_name = "FILE.csv", requires = "kind")]
@@ -136,6 +140,7 @@ impl Figure {
         let (at, panels) = self.held(kind, archive)?;
         self.check_colour_by(archive)?;
         let name = self.name.clone().unwrap_or_else(|| self.free_name(kind, archive));
+        let mut faults = Vec::new();
         let drawing = Drawing {
             title: self.title.clone(),
             x: self.x.clone(),
@@ -146,13 +151,44 @@ impl Figure {
             cycles: self.cycles()?,
             sweep: self.sweep,
             colour_by: self.colour_by.clone(),
+            colours: self.colours_of_study(kind, archive),
+            budget: self.budget(kind, archive, &mut faults),
             curves: self.curves,
             branches: !self.no_branches,
             ..Drawing::new(name, kind)
         };
-        self.appearance
-            .set(drawing, &|name| dimension(archive, name))
-            .map_err(|faults| Failure::requests(&faults))
+        match self.appearance.set(drawing, &|name| dimension(archive, name)) {
+            Ok(drawing) if faults.is_empty() => Ok(drawing),
+            set => {
+                faults.extend(set.err().into_iter().flatten());
+                Err(Failure::requests(&faults))
+            }
+        }
+    }
+
+    /// The colours that the figures of the study set for attractors, for a figure that shows these.
+    fn colours_of_study(&self, kind: DrawingKind, archive: &Archive) -> AttractorColours {
+        if !kind.keys().attractors {
+            return AttractorColours::new();
+        }
+        let drawings = studied(archive, &self.file).map_or(Vec::new(), |it| it.drawings);
+        drawings.into_iter().rev().flat_map(|it| it.colours).collect()
+    }
+
+    /// The most of the cost that may be spent; a fault is noted.
+    fn budget(
+        &self,
+        kind: DrawingKind,
+        archive: &Archive,
+        faults: &mut Vec<String>,
+    ) -> Option<f64> {
+        let text = self.budget.as_deref()?;
+        let model = archive.frame().model();
+        if kind != DrawingKind::TradeOff {
+            faults.push(format!("--budget: goes with a trade-off, not with a {}", kind.name()));
+        }
+        let dimension = kind.cost(&self.of, model)?.quantity().dimension;
+        read_quantity("--budget", text, dimension, faults)
     }
 
     /// Checks that the file has what tells the colours of points.

@@ -17,6 +17,7 @@ use super::scale::Scale;
 use super::style::{COEXISTENCE, FAINT_INK, MINOR_WIDTH};
 use super::text::Text;
 use super::view::View;
+use super::without_period::numbers;
 use crate::description::Description;
 use crate::store::catalogue::{Entry, section};
 
@@ -32,7 +33,7 @@ pub fn draw(
     x_name: &str,
     attractors: &Attractors<'_>,
 ) -> Result<Drawn, FigureError> {
-    let looks = looks(attractors);
+    let looks = attractors.looks();
     let (contents, marks) = contents(view, x_name, attractors, &looks)?;
     let has_own_colours = contents.paint.is_some();
     let mut windows = windows(&contents.cases.values, attractors);
@@ -41,11 +42,12 @@ pub fn draw(
     let Scale { low, high, .. } = diagram.abscissa.scale;
     windows.retain(|[from, to]| *from < high && *to > low && view.shows("coexistence"));
     let seen = attractors.seen(|case| diagram.is_seen(case));
-    let mut legend = if has_own_colours { Vec::new() } else { legend_of_looks(&seen) };
+    let mut legend = if has_own_colours { Vec::new() } else { legend_of_looks(&seen, attractors) };
     if !windows.is_empty() {
-        legend.push((Mark::Patch(COEXISTENCE), Text::plain("coexistence")));
+        legend.push((Mark::Patch(COEXISTENCE), Text::plain("coexisting attractors")));
     }
     legend.extend(marks.legend().map(|(symbol, words)| (Mark::Symbol(symbol), words)));
+    legend.extend(marks.left_out().map(|words| (Mark::Nothing, Text::plain(&words))));
     let style = PointStyle {
         sorts: looks.into_iter().map(sort).collect(),
         // Points stand out on both sides of the lines through them.
@@ -97,12 +99,6 @@ fn outputs(view: &View<'_>) -> Vec<String> {
     held.map(|entry| entry.name.to_owned()).collect()
 }
 
-/// The looks in the order in which they are drawn.
-fn looks(attractors: &Attractors<'_>) -> Vec<Look> {
-    let own = (0..attractors.own.len()).map(Look::Own);
-    [Look::Undecided, Look::Other].into_iter().chain(own).collect()
-}
-
 /// How the points of a look are drawn.
 fn sort(look: Look) -> Sort {
     let size = if look == Look::Undecided { 0.6 } else { 1.0 };
@@ -117,12 +113,12 @@ fn points(
     attractors: &Attractors<'_>,
     looks: &[Look],
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
-    let numbers: Vec<f64> = view.shown(output, &attractors.free)?.iter().copied().collect();
+    let numbers = numbers(view, output, &attractors.free)?;
     let mut clouds: Vec<Vec<Dot>> = looks.iter().map(|_| Vec::new()).collect();
     for case in 0..contents.cases.count() {
         let look = attractors.look(case);
         let Some(cloud) = looks.iter().position(|it| Some(*it) == look) else { continue };
-        clouds[cloud].extend(contents.dots(case, &numbers, looks[cloud].colour()));
+        clouds[cloud].extend(contents.dots(case, &numbers, attractors.colour(looks[cloud])));
     }
     Ok(clouds)
 }
@@ -169,23 +165,19 @@ fn mark_zero(canvas: &mut Canvas, panel: &Panel, output: &str, view: &View<'_>) 
 }
 
 /// What the colours of the looks mean, of those that are seen.
-fn legend_of_looks(looks: &BTreeSet<Look>) -> Vec<header::Entry> {
+fn legend_of_looks(looks: &BTreeSet<Look>, attractors: &Attractors<'_>) -> Vec<header::Entry> {
     let mut legend = Vec::new();
-    let own: Vec<Look> =
-        looks.iter().filter(|look| matches!(look, Look::Own(_))).copied().collect();
-    match own.as_slice() {
-        [] | [_] => {}
-        [a, b, c, _, ..] => {
-            let discs = Mark::Discs([a, b, c].map(|look| look.colour()), 1.8);
-            legend.push((discs, Text::plain("attractors, each in its colour")));
-        }
-        few => legend.extend(
-            few.iter().map(|look| (Mark::Disc(look.colour(), 1.8), Text::plain(&look.name()))),
-        ),
+    // One alone needs no name.
+    let several = looks.len() > 1;
+    for look in looks.iter().filter(|_| several) {
+        let Look::Own(number) = look else { continue };
+        // Of several the first says what the numbers are of.
+        let words = if legend.is_empty() { look.name() } else { number.to_string() };
+        legend.push((Mark::Disc(attractors.colour(*look), 1.8), Text::plain(&words)));
     }
     for (look, words) in [(Look::Other, "further attractors"), (Look::Undecided, "undecided")] {
         if looks.contains(&look) {
-            legend.push((Mark::Disc(look.colour(), 1.4), Text::plain(words)));
+            legend.push((Mark::Disc(attractors.colour(look), 1.4), Text::plain(words)));
         }
     }
     legend

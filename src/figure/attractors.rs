@@ -4,9 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use plotters::style::RGBColor;
 
+use super::attractor_colours::Colours;
 use super::error::FigureError;
 use super::outcome::Outcomes;
-use super::style::{ATTRACTORS, OTHER_ATTRACTOR, UNDECIDED_DOT};
+use super::style::{OTHER_ATTRACTOR, UNDECIDED_DOT};
 use super::view::View;
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_AXIS, DIRECTION, Entry, starts};
 
@@ -20,7 +21,7 @@ pub enum Look {
     Undecided,
     /// An attractor with a colour that it shares with others.
     Other,
-    /// An attractor with a colour of its own, by its place among these.
+    /// An attractor with a colour of its own, by its number.
     Own(usize),
 }
 
@@ -30,16 +31,7 @@ impl Look {
         match self {
             Look::Undecided => "undecided".to_owned(),
             Look::Other => "further attractors".to_owned(),
-            Look::Own(place) => format!("attractor {}", place + 1),
-        }
-    }
-
-    /// The colour of its points.
-    pub fn colour(self) -> RGBColor {
-        match self {
-            Look::Undecided => UNDECIDED_DOT,
-            Look::Other => OTHER_ATTRACTOR,
-            Look::Own(place) => ATTRACTORS[place],
+            Look::Own(number) => format!("attractor {number}"),
         }
     }
 }
@@ -55,8 +47,8 @@ pub struct Attractors<'a> {
     /// The number of each case's attractor, in the order of the axes; negative for none.
     numbers: Vec<i64>,
     failed: Vec<bool>,
-    /// The attractors with colours of their own, in the order of their numbers.
-    pub own: Vec<i64>,
+    /// The colours of the attractors.
+    colours: Colours,
 }
 
 impl<'a> Attractors<'a> {
@@ -75,9 +67,9 @@ impl<'a> Attractors<'a> {
         let outcomes = Outcomes::over(view, &free)?;
         let failed = (0..numbers.len()).map(|case| outcomes.failed(case)).collect();
         let values = view.coordinate_values(x).len();
+        let colours = Colours::of(view)?;
         let per_value = numbers.len().checked_div(values).unwrap_or(0);
-        let own = widest(&numbers, per_value);
-        Ok(Some(Attractors { free, per_value, values, numbers, failed, own }))
+        Ok(Some(Attractors { free, per_value, values, numbers, failed, colours }))
     }
 
     /// How a case looks; none where it failed, or where an earlier case at its value shows the same
@@ -92,8 +84,28 @@ impl<'a> Attractors<'a> {
         }
         let first = case / self.per_value * self.per_value;
         let shown = self.numbers[first..case].contains(&number);
-        let own = self.own.iter().position(|it| *it == number);
-        (!shown).then_some(own.map_or(Look::Other, Look::Own))
+        let is_own = self.colours.has(number as usize);
+        (!shown).then_some(if is_own { Look::Own(number as usize) } else { Look::Other })
+    }
+
+    /// Whether an attractor has a colour of its own.
+    pub fn has_colour(&self, number: i64) -> bool {
+        usize::try_from(number).is_ok_and(|number| self.colours.has(number))
+    }
+
+    /// The colour of the points of a look.
+    pub fn colour(&self, look: Look) -> RGBColor {
+        match look {
+            Look::Undecided => UNDECIDED_DOT,
+            Look::Other => OTHER_ATTRACTOR,
+            Look::Own(number) => self.colours.colour(number),
+        }
+    }
+
+    /// All looks of cases, in the order in which they are drawn.
+    pub fn looks(&self) -> Vec<Look> {
+        let all: BTreeSet<Look> = (0..self.numbers.len()).filter_map(|it| self.look(it)).collect();
+        all.into_iter().collect()
     }
 
     /// Whether several attractors exist at each value.
@@ -121,23 +133,4 @@ impl<'a> Attractors<'a> {
             .filter_map(|case| self.look(case))
             .collect()
     }
-}
-
-/// The attractors that show at most values, as many as there are colours, in the order of their numbers.
-fn widest(numbers: &[i64], per_value: usize) -> Vec<i64> {
-    let mut extent: BTreeMap<i64, usize> = BTreeMap::new();
-    for here in numbers.chunks(per_value.max(1)) {
-        let mut known: Vec<i64> = here.iter().copied().filter(|number| *number >= 0).collect();
-        known.sort_unstable();
-        known.dedup();
-        for number in known {
-            *extent.entry(number).or_default() += 1;
-        }
-    }
-    let mut widest: Vec<(i64, usize)> = extent.into_iter().collect();
-    widest.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
-    let mut own: Vec<i64> =
-        widest.into_iter().take(ATTRACTORS.len()).map(|(number, _)| number).collect();
-    own.sort_unstable();
-    own
 }

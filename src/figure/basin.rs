@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use super::attractor_colours::{Colours, tinted};
 use super::axis::AxisRequest;
-use super::basin_colours::{band, colour, tinted};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::data::Value;
 use super::error::FigureError;
@@ -13,15 +13,15 @@ use super::kind::{Kind, Names, Needs};
 use super::known_attractors::{self, KnownAttractors};
 use super::manifolds::{self, Curves};
 use super::motion::Motion;
-use super::outcome::{self, Outcomes};
+use super::outcome::{self, Outcomes, told_of_missing};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
 use super::section_points::{
-    self, RADIUS, SectionPoint, draw_saddles, draw_section_points, saddles, section_points,
+    self, RADIUS, SectionPoint, behind, draw_saddles, draw_section_points, saddles, section_points,
 };
-use super::style::{INK, OTHER_ATTRACTOR, REFERENCE_WIDTH, UNDECIDED};
+use super::style::{INK, NOT_YET, OTHER_ATTRACTOR, REFERENCE_WIDTH, UNDECIDED};
 use super::text::Text;
 use super::view::View;
 use crate::description::Description;
@@ -30,8 +30,6 @@ use crate::study::{Coordinate, Drawing};
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 170.0;
-/// Attractors with an entry of their own in the legend.
-const NAMED: usize = 10;
 /// The line where the mass reaches the stop.
 const SURFACE: Stroke = Stroke::dashed(INK, REFERENCE_WIDTH);
 
@@ -53,9 +51,13 @@ fn reads(_: &Drawing, model: &'static Description) -> Names {
 
 /// Draws the basins that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let basins = Basins::of(view)?;
-    let panel = basins.request(view);
-    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Outward);
+    let mut basins = Basins::of(view)?;
+    // Which points lie behind others is known once the panel has its place.
+    let page = PageRequest::of_one(view.drawing, basins.request(view), HEIGHT, Pointing::Outward);
+    let (_, panels) = page.lay_out();
+    let each = panels.iter().flatten();
+    basins.behind = each.map(|it| behind(it, &basins.points, &basins.saddles)).sum();
+    let page = PageRequest::of_one(view.drawing, basins.request(view), HEIGHT, Pointing::Outward);
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         basins.draw(&mut canvas, panel);
@@ -71,8 +73,11 @@ struct Basins<'a> {
     numbers: Vec<i64>,
     /// Whether a case has no result.
     without: Vec<bool>,
+    /// Whether a case is not computed yet.
+    not_yet: Vec<bool>,
     /// What the results tell of the attractors.
     attractors: KnownAttractors<'a>,
+    colours: Colours,
     /// Whether each attractor of the table is chaotic or quasi-periodic.
     irregular: Vec<bool>,
     /// Which part of the starts is inferred, if any is, and how well.
@@ -81,6 +86,8 @@ struct Basins<'a> {
     points: Vec<SectionPoint>,
     /// The section points of saddles.
     saddles: Vec<(f64, f64)>,
+    /// How many of both lie behind others.
+    behind: usize,
     /// Their manifolds.
     curves: Curves,
     /// The ends of the lines where the mass reaches its stops.
@@ -100,27 +107,30 @@ impl<'a> Basins<'a> {
         let free = plane.free();
         let numbers = view.take(ATTRACTOR.name, &free)?.iter().map(|it| *it as i64).collect();
         let outcomes = Outcomes::over(view, &free)?;
-        let without = (0..plane.count())
-            .map(|case| matches!(outcomes.name(case), Some("failed" | "missing")))
-            .collect();
+        let without = (0..plane.count()).map(|case| outcomes.failed(case)).collect();
+        let not_yet = (0..plane.count()).map(|case| outcomes.missing(case)).collect();
         let inferred = inferred::inferred(&outcomes, plane.count());
         let attractors = KnownAttractors::of(view);
+        let colours = Colours::of(view)?;
         Ok(Basins {
             numbers,
             without,
+            not_yet,
             irregular: attractors.irregular(),
             attractors,
             inferred: inferred::told(view, &inferred, "starts", "lead elsewhere"),
             points: match view.shows("section-points") {
-                true => section_points(view, &plane),
+                true => section_points(view, &plane, &colours),
                 false => Vec::new(),
             },
             saddles: if view.shows("saddles") { saddles(view, &plane) } else { Vec::new() },
             curves: if view.shows("manifolds") { Curves::of(view, &plane) } else { Curves::none() },
+            behind: 0,
             surfaces: match view.shows("impact-surface") {
                 true => surfaces(view, &plane),
                 false => Vec::new(),
             },
+            colours,
             plane,
         })
     }
@@ -143,21 +153,27 @@ impl<'a> Basins<'a> {
     fn legend_of_fills(&self) -> Vec<header::Entry> {
         let present = self.present();
         let mut legend = Vec::new();
-        for &number in present.iter().take(NAMED) {
+        let (own, others): (Vec<usize>, Vec<usize>) =
+            present.into_iter().partition(|number| self.colours.has(*number));
+        for number in own {
             let fill = Mark::Filled(self.of_attractor(number));
             legend.push((fill, Text::plain(&self.attractors.told(number))));
         }
-        if present.len() > NAMED {
-            let others = format!("{} other attractors", present.len() - NAMED);
+        if !others.is_empty() {
+            let others = format!("{} further attractors", others.len());
             legend.push((Mark::Filled(Fill::Plain(tinted(OTHER_ATTRACTOR))), Text::plain(&others)));
         }
-        let mut cases = self.numbers.iter().zip(&self.without);
-        if cases.any(|(number, without)| *number < 0 && !without) {
+        let cases = self.numbers.iter().zip(self.without.iter().zip(&self.not_yet));
+        let mut computed = cases.filter(|(_, (without, not_yet))| !*without && !*not_yet);
+        if computed.any(|(number, _)| *number < 0) {
             legend.push((Mark::Patch(UNDECIDED), Text::plain("attractor unknown")));
         }
         if self.without.contains(&true) {
             legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain("no result")));
         }
+        let missing = self.not_yet.iter().filter(|it| **it).count();
+        let missing = told_of_missing(missing, self.not_yet.len());
+        legend.extend(missing.map(|words| (Mark::Patch(NOT_YET), Text::plain(&words))));
         legend
     }
 
@@ -175,6 +191,10 @@ impl<'a> Basins<'a> {
             let more = if is_projected { ", projected alike" } else { "" };
             let words = Text::plain(&format!("saddles on the boundary{more}"));
             legend.push((Mark::Ring(INK, RADIUS), words));
+        }
+        if self.behind > 0 {
+            let words = format!("of these points, behind others: {}", self.behind);
+            legend.push((Mark::Nothing, Text::plain(&words)));
         }
         legend.extend(self.curves.legend());
         if !self.surfaces.is_empty() {
@@ -212,25 +232,26 @@ impl<'a> Basins<'a> {
     fn fill(&self, case: usize) -> Fill {
         match self.numbers[case] {
             _ if self.without[case] => Fill::NO_VALUE,
+            _ if self.not_yet[case] => Fill::Plain(NOT_YET),
             number if number < 0 => Fill::Plain(UNDECIDED),
             number => self.of_attractor(number as usize),
         }
     }
 
-    /// The attractor of a case, numbered from 1 as in the legend.
+    /// The attractor of a case, numbered as in the file and in the legend.
     fn value(&self, case: usize) -> Value {
         match self.numbers[case] {
-            _ if self.without[case] => Value::None,
+            _ if self.without[case] || self.not_yet[case] => Value::None,
             number if number < 0 => Value::Name("unknown".to_owned()),
-            number => Value::Number(number as f64 + 1.0),
+            number => Value::Number(number as f64),
         }
     }
 
     /// How the basin of an attractor is filled: hatched where the motion does not repeat.
     fn of_attractor(&self, number: usize) -> Fill {
         match self.irregular.get(number) {
-            Some(true) => Fill::Hatched(band(number), colour(number)),
-            _ => Fill::Plain(band(number)),
+            Some(true) => Fill::Hatched(self.colours.band(number), self.colours.colour(number)),
+            _ => Fill::Plain(self.colours.band(number)),
         }
     }
 

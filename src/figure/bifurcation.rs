@@ -17,6 +17,7 @@ use super::style::{BLUE, INK, VERMILION};
 use super::text::Text;
 use super::varied::along;
 use super::view::View;
+use super::without_period::numbers;
 use super::{attractors, category, event_marks, ramp_points, track};
 use crate::description::Description;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, Entry, Place, section};
@@ -183,7 +184,7 @@ fn points(
     if is_continued && (values.is_empty() || view.dataset.variable(output).is_none()) {
         return Ok(branches.iter().map(|_| Vec::new()).collect());
     }
-    let numbers: Vec<f64> = view.shown(output, free)?.iter().copied().collect();
+    let numbers = numbers(view, output, free)?;
     let outcomes = Outcomes::over(view, free)?;
     let mut clouds = Vec::new();
     for branch in branches {

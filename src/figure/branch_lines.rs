@@ -9,6 +9,7 @@ use super::panel::Panel;
 use super::style::{CURVE_WIDTH, INK};
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
+use super::thinned::{Placed, Special};
 use super::track::{Track, tracks};
 use super::view::View;
 
@@ -78,21 +79,22 @@ impl BranchLines {
         self.lines.iter().flatten().flatten().copied()
     }
 
-    /// Draws the lines, the stable over the unstable, and the special points over both.
+    /// Draws the lines, the stable over the unstable.
     pub fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
         for (lines, stroke) in self.lines.iter().zip(STROKES) {
             lines.iter().for_each(|line| panel.curve(canvas, line, stroke));
         }
         for (lines, name) in self.lines.iter().zip(STABILITIES) {
             for (number, line) in lines.iter().enumerate() {
-                let series = format!("{name} orbits, line {}", number + 1);
+                let series = format!("{name}, line {}", number + 1);
                 panel.record(canvas, &series, line.iter().copied());
             }
         }
-        for symbol in SYMBOLS {
-            let ours = self.specials.iter().filter(|(other, _)| *other == symbol);
-            draw_symbols(canvas, panel, symbol, ours.map(|(_, place)| *place));
-        }
+    }
+
+    /// The special points.
+    pub fn specials(&self) -> impl Iterator<Item = Placed> + '_ {
+        self.specials.iter().map(|(symbol, at)| (Special::One(*symbol), *at))
     }
 
     /// What the lines and symbols mean.
@@ -117,20 +119,7 @@ const STROKES: [Stroke; 2] = [
 ];
 
 /// What the lines are of, in their order.
-const STABILITIES: [&str; 2] = ["unstable", "stable"];
-
-/// The symbol at those of `places` that lie on the panel.
-pub fn draw_symbols(
-    canvas: &mut Canvas,
-    panel: &Panel,
-    symbol: Symbol,
-    places: impl Iterator<Item = (f64, f64)>,
-) {
-    for (x, y) in places.filter(|(x, y)| panel.holds(*x, *y)) {
-        symbol.draw(canvas, panel.place(x, y));
-        panel.record(canvas, symbol.words, [(x, y)]);
-    }
-}
+const STABILITIES: [&str; 2] = ["unstable orbits", "stable orbits"];
 
 /// A colour that steps back behind lines.
 pub fn faded(RGBColor(red, green, blue): RGBColor) -> RGBColor {

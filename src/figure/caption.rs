@@ -1,11 +1,15 @@
 //! A legend below all panels, as a caption stands: that of a page which would take more than two lines above them.
 
 use super::canvas::Canvas;
-use super::header::{Entry, HEADER_LINE, draw_entries, in_lines, legend_width};
+use super::header::{
+    Entry, HEADER_LINE, broken, draw_entries, entry_width, in_lines, legend_width,
+};
 use super::style::{BORDER, SMALL_SIZE};
 
 /// A legend of up to so many widths of the page stands above its panel.
 const MOST_ABOVE: f64 = 1.6;
+/// No entry above a panel, which is narrower than the page, takes more than so much of its width.
+const WIDEST_ABOVE: f64 = 0.75;
 /// Distance from the panels to the first line [pt].
 const GAP: f64 = 5.0;
 
@@ -23,8 +27,8 @@ impl Caption {
     ) -> Caption {
         let mut legends: Vec<&mut Vec<Entry>> = legends.filter(|it| !it.is_empty()).collect();
         match &mut legends[..] {
-            [only] if legend_width(only) > MOST_ABOVE * width => {
-                Caption { entries: std::mem::take(only) }
+            [only] if legend_width(only) > MOST_ABOVE * width || is_wide(only, width) => {
+                Caption { entries: broken(std::mem::take(only), width) }
             }
             _ => Caption::default(),
         }
@@ -46,4 +50,9 @@ impl Caption {
             draw_entries(canvas, entries, (BORDER, baseline));
         }
     }
+}
+
+/// Whether an entry is too wide to stand above a panel of a page of this inner width [pt].
+fn is_wide(legend: &[Entry], width: f64) -> bool {
+    legend.iter().any(|entry| entry_width(entry) > WIDEST_ABOVE * width)
 }

@@ -4,7 +4,7 @@ use super::error::FigureError;
 use super::outcome::Outcomes;
 use super::text::Text;
 use super::view::View;
-use crate::store::catalogue::{HISTORY_TIME, PERIOD};
+use crate::store::catalogue::{ATTRACTOR, HISTORY_TIME, PERIOD};
 
 /// Cases that one page has room for.
 const MOST_CASES: usize = 12;
@@ -28,6 +28,15 @@ impl<'a> CasePanel<'a> {
         let is_periodic = Outcomes::over(&self.view, &self.free)?.periodic(self.case);
         let period = self.view.take(PERIOD.name, &self.free)?.iter().nth(self.case).copied();
         Ok(period.filter(|it| is_periodic && *it >= 1.0).map(|it| it as usize))
+    }
+
+    /// The number of its attractor in the file; none where the results do not tell it.
+    pub fn attractor(&self) -> Result<Option<usize>, FigureError> {
+        if self.view.dataset.variable(ATTRACTOR.name).is_none() {
+            return Ok(None);
+        }
+        let number = self.view.take(ATTRACTOR.name, &self.free)?.iter().nth(self.case).copied();
+        Ok(number.filter(|it| *it >= 0.0).map(|it| it as usize))
     }
 
     /// Which case it is, for the heading of its panel.

@@ -2,16 +2,17 @@
 
 use plotters::style::RGBColor;
 
+use super::attractor_colours::Colours;
 use super::canvas::{Anchor, Canvas};
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Mark, draw_mark};
 use super::inferred;
-use super::outcome::Outcomes;
+use super::outcome::{self, Outcomes, told_of_missing};
 use super::raster::Fill;
 use super::style::{
-    ATTRACTORS, CHAOTIC, INFERRED, LONG_PERIOD, NOT_YET, OTHER_ATTRACTOR, PAPER, PERIODS,
-    QUASI_PERIODIC, SMALL_SIZE, UNDECIDED,
+    CHAOTIC, INFERRED, LONG_PERIOD, NOT_YET, OTHER_ATTRACTOR, PAPER, PERIODS, QUASI_PERIODIC,
+    SMALL_SIZE, UNDECIDED,
 };
 use super::text::Text;
 use super::view::View;
@@ -29,6 +30,9 @@ const LEGEND_GAP: f64 = 7.0;
 const LINE: f64 = 11.5;
 /// Width of a mark and the gap after it [pt].
 const MARK: f64 = 16.0;
+
+/// The place in the legend after those of all kinds with numbers.
+const FURTHER: usize = usize::MAX - 2;
 
 /// A kind of case.
 #[derive(Debug, Clone, PartialEq)]
@@ -123,6 +127,15 @@ impl Kinds {
         self.kinds.iter().zip(&self.listed).filter(|(_, listed)| **listed).map(|(kind, _)| kind)
     }
 
+    /// How many of the cases that are seen are not computed yet, in words.
+    pub fn told_of_missing(&self, seen: impl Fn(usize) -> bool) -> Option<String> {
+        let cases = (0..self.of_case.len()).filter(|case| seen(*case));
+        let is_missing =
+            |case: &usize| self.kinds[usize::from(self.of_case[*case])].name == outcome::NOT_YET;
+        let missing = cases.clone().filter(is_missing).count();
+        told_of_missing(missing, cases.count())
+    }
+
     /// What the kinds are of.
     pub fn told(&self) -> String {
         self.heading.content()
@@ -179,10 +192,11 @@ fn kinds(view: &View<'_>, name: &str, free: &[&str]) -> Result<Vec<(usize, Kind)
     let codes = view.parameter(name, free)?;
     let (flags, outcomes) = (view.flags(name), Outcomes::over(view, free)?);
     let resting = resting(view, free, &outcomes)?;
+    let colours = Colours::of(view)?;
     let mut kinds = Vec::new();
     for (case, code) in codes.iter().enumerate() {
         kinds.push(match name {
-            _ if name == ATTRACTOR.name => by_attractor(*code),
+            _ if name == ATTRACTOR.name => by_attractor(*code, outcomes.missing(case), &colours),
             _ if name != PERIOD.name => by_flag(*code, flags),
             _ if resting.get(case) == Some(&true) => rest(),
             _ => by_period(*code, outcomes.name(case)),
@@ -200,14 +214,17 @@ fn alike(is_alike: bool) -> (usize, Kind) {
 }
 
 /// The kind of a case that leads to an attractor, by its number.
-fn by_attractor(number: f64) -> (usize, Kind) {
-    let place = match number {
+fn by_attractor(number: f64, is_missing: bool, colours: &Colours) -> (usize, Kind) {
+    if is_missing {
+        return (FURTHER + 1, Kind::coloured(outcome::NOT_YET, NOT_YET));
+    }
+    let number = match number {
         number if number >= 0.0 => number as usize,
-        _ => return (98, Kind::coloured("no attractor known", UNDECIDED)),
+        _ => return (FURTHER + 1, Kind::coloured("no attractor known", UNDECIDED)),
     };
-    match ATTRACTORS.get(place) {
-        Some(colour) => (place, Kind::coloured(&format!("attractor {}", place + 1), *colour)),
-        None => (97, Kind::coloured("further attractors", OTHER_ATTRACTOR)),
+    match colours.has(number) {
+        true => (number, Kind::coloured(&format!("attractor {number}"), colours.colour(number))),
+        false => (FURTHER, Kind::coloured("further attractors", OTHER_ATTRACTOR)),
     }
 }
 
@@ -224,7 +241,10 @@ fn by_name(name: &str) -> Option<(usize, Kind)> {
         "chaotic" => (21, Some(CHAOTIC)),
         "undecided" => (22, Some(UNDECIDED)),
         "failed" => (23, None),
-        "missing" => (24, Some(NOT_YET)),
+        "missing" => {
+            let kind = Kind::coloured(outcome::NOT_YET, NOT_YET);
+            return Some((24, kind));
+        }
         "inferred" => (25, Some(INFERRED)),
         _ => return None,
     };
@@ -256,7 +276,7 @@ fn rest() -> (usize, Kind) {
 }
 
 fn no_value() -> (usize, Kind) {
-    (99, Kind { name: "no value".to_string(), colour: None })
+    (FURTHER + 2, Kind { name: "no value".to_string(), colour: None })
 }
 
 fn by_period(period: f64, outcome: Option<&str>) -> (usize, Kind) {

@@ -40,17 +40,25 @@ const NUMBER: f64 = 6.0;
 pub const CODIM2_SYMBOLS: [Codim2Symbol; 13] = [
     symbol("cusp", "cusp", Content::One("fold")),
     symbol("fold-flip", "fold-flip", Content::Both("fold", "period-doubling")),
-    symbol("fold-neimark-sacker", "fold–NS", Content::Both("fold", "neimark-sacker")),
-    symbol("flip-neimark-sacker", "flip–NS", Content::Both("period-doubling", "neimark-sacker")),
+    symbol("fold-neimark-sacker", "fold–Neimark–Sacker", Content::Both("fold", "neimark-sacker")),
+    symbol(
+        "flip-neimark-sacker",
+        "flip–Neimark–Sacker",
+        Content::Both("period-doubling", "neimark-sacker"),
+    ),
     symbol("resonance-1-1", "resonance 1:1", Content::Turn("1")),
     symbol("resonance-1-2", "resonance 1:2", Content::Turn("2")),
     symbol("resonance-1-3", "resonance 1:3", Content::Turn("3")),
     symbol("resonance-1-4", "resonance 1:4", Content::Turn("4")),
     symbol("fold-grazing", "fold-grazing", Content::Both("fold", "grazing")),
     symbol("doubling-grazing", "doubling-grazing", Content::Both("period-doubling", "grazing")),
-    symbol("neimark-sacker-grazing", "NS-grazing", Content::Both("neimark-sacker", "grazing")),
+    symbol(
+        "neimark-sacker-grazing",
+        "Neimark–Sacker–grazing",
+        Content::Both("neimark-sacker", "grazing"),
+    ),
     symbol("double-grazing", "double grazing", Content::Both("grazing", "grazing")),
-    symbol("unresolved", "unresolved", Content::One("unresolved")),
+    symbol("unresolved", "unresolved meeting", Content::One("unresolved")),
 ];
 
 const fn symbol(name: &'static str, words: &'static str, content: Content) -> Codim2Symbol {

@@ -1,6 +1,6 @@
 //! A map as the colours and numbers of its cells, for a screen that draws it itself.
 
-use super::basin_colours;
+use super::attractor_colours::{colour_of, tinted};
 use super::cells::Cells;
 use super::colour::Colours;
 use super::error::FigureError;
@@ -133,7 +133,7 @@ fn bar(colours: &Colours) -> MapColours {
 
 /// The colour of a start in figures of basins: that of the attractor of this number, or of starts whose attractor is not known.
 pub fn label_colour(attractor: Option<u32>) -> [u8; 3] {
-    channels(attractor.map_or(UNDECIDED, |number| basin_colours::band(number as usize)))
+    channels(attractor.map_or(UNDECIDED, |number| tinted(colour_of(number as usize))))
 }
 
 /// How figures show a quantity.

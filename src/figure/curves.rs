@@ -1,7 +1,8 @@
 //! Curves of special points in two parameters, with the special points that they go through.
 
+use std::collections::BTreeSet;
+
 use super::axis::AxisRequest;
-use super::branch_lines::{draw_symbols, faded};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::codim2_symbol::{CODIM2_SYMBOLS, Codim2Symbol};
 use super::error::FigureError;
@@ -9,9 +10,10 @@ use super::header::{self, Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
-use super::style::CURVE_WIDTH;
+use super::style::{CURVE_WIDTH, PAPER};
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
+use super::thinned::{Placed, Special, Thinned, with_told};
 use super::track::{Rows, elsewhere, in_view};
 use super::varied::{along, varied};
 use super::view::View;
@@ -25,6 +27,11 @@ use crate::study::Drawing;
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 165.0;
+
+/// Widths of curves relative to the usual one, from the shortest period on.
+const WIDTHS: [f64; 3] = [1.3, 0.8, 0.5];
+/// Width of the rim of paper on both sides of a curve over colours [pt].
+const RIM: f64 = 0.9;
 
 /// A curve in the units of the figure.
 pub struct Curve {
@@ -61,27 +68,44 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             curve.codim2.clear();
         }
     }
-    let places = curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.specials));
-    let (x, y): (Vec<f64>, Vec<f64>) = places.copied().unzip();
     // Branches have no direction in which they were swept.
     let drawn = [axes[0].as_str(), axes[1].as_str()];
     let left_out = elsewhere(view, &drawn);
     let note = view.note(&[drawn[0], drawn[1], DIRECTION.name], &left_out);
-    let panel = PanelRequest {
-        x: AxisRequest::around(view.quantity(&axes[0]), &x, 0.03),
-        y: AxisRequest::around(view.quantity(&axes[1]), &y, 0.03),
-        header: Header { letter: None, note, legend: legend(&curves) },
-    };
-    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Inward);
-    let (mut canvas, panels) = page.lay_out();
-    for panel in panels.iter().flatten() {
-        draw_curves(&mut canvas, panel, &curves);
+    // Which symbols would overlap is known once the panel has its place.
+    let header = Header { letter: None, note, legend: legend(&curves) };
+    let panel = panel(view, &axes, &curves, header);
+    let (_, panels) = page(view, panel.clone()).lay_out();
+    let each = panels.iter().flatten().map(|panel| Thinned::of(panel, specials(&curves)));
+    let thinned: Vec<Thinned> = each.collect();
+    let legend = with_told(panel.header.legend, &thinned);
+    let panel = PanelRequest { header: Header { legend, ..panel.header }, ..panel };
+    let (mut canvas, panels) = page(view, panel).lay_out();
+    for (panel, thinned) in panels.iter().flatten().zip(&thinned) {
+        draw_curves(&mut canvas, panel, &curves, Ground::Paper);
+        thinned.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
     let names = met(&curves).map(|symbol| symbol.name);
     let names = names.chain(SYMBOLS.map(|symbol| symbol.name)).map(str::to_owned);
     let names: Vec<String> = names.collect();
     Ok(canvas.finish(&view.about(&names, &drawn)).noting(left_out))
+}
+
+/// The panel of curves over two parameters. To ask for an axis counts what has no place on it, so that this is done once.
+fn panel(view: &View<'_>, axes: &[String; 2], curves: &[Curve], header: Header) -> PanelRequest {
+    let places = curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.specials));
+    let (x, y): (Vec<f64>, Vec<f64>) = places.copied().unzip();
+    PanelRequest {
+        x: AxisRequest::around(view.quantity(&axes[0]), &x, 0.03),
+        y: AxisRequest::around(view.quantity(&axes[1]), &y, 0.03),
+        header,
+    }
+}
+
+/// The page of a panel.
+fn page<'d>(view: &View<'d>, panel: PanelRequest) -> PageRequest<'d> {
+    PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Inward)
 }
 
 /// The parameters along the abscissa and the ordinate.
@@ -228,11 +252,11 @@ impl<'a> Columns<'a> {
 }
 
 impl Curve {
-    /// How the curve is drawn: the longer its period among `periods`, the fainter.
+    /// How the curve is drawn: the longer its period among `periods`, the thinner.
     fn stroke(&self, periods: &[u64]) -> Stroke {
         let rank = periods.iter().position(|&period| period == self.period).unwrap_or(0);
-        let colour = (0..rank.min(2)).fold(self.symbol.colour, |colour, _| faded(colour));
-        Stroke { colour, width: 1.2 * CURVE_WIDTH, dash: self.symbol.dash }
+        let width = WIDTHS[rank.min(WIDTHS.len() - 1)];
+        Stroke { colour: self.symbol.colour, width: width * CURVE_WIDTH, dash: self.symbol.dash }
     }
 }
 
@@ -254,30 +278,45 @@ fn periods(curves: &[Curve]) -> Vec<u64> {
     periods
 }
 
-/// What the curves are.
+/// What the curves are: an entry for each kind, with the periods of its orbits where there are several.
 pub fn legend(curves: &[Curve]) -> Vec<header::Entry> {
-    let periods = periods(curves);
+    let all = periods(curves);
     let mut legend = Vec::new();
     for symbol in SYMBOLS.into_iter().rev() {
-        for &period in &periods {
-            let first = curves.iter().find(|it| it.symbol == symbol && it.period == period);
-            let Some(curve) = first else { continue };
-            let words = match periods.len() {
-                1 => symbol.words.to_owned(),
-                _ => format!("{}, period {period}", symbol.words),
-            };
-            legend.push((Mark::Line(curve.stroke(&periods)), Text::plain(&words)));
-        }
+        let ours: Vec<&Curve> = curves.iter().filter(|it| it.symbol == symbol).collect();
+        let own: BTreeSet<u64> = ours.iter().map(|it| it.period).collect();
+        let Some(first) = ours.iter().min_by_key(|it| it.period) else { continue };
+        let words = match all.len() {
+            1 => symbol.words.to_owned(),
+            _ => format!("{}, {}", symbol.words, counted(&own)),
+        };
+        legend.push((Mark::Line(first.stroke(&all)), Text::plain(&words)));
     }
-    for symbol in SYMBOLS.into_iter().rev() {
-        let has_specials = |it: &Curve| it.symbol == symbol && !it.specials.is_empty();
-        if curves.iter().any(has_specials) {
-            let words = format!("{} from which a curve is followed", symbol.words);
-            legend.push((Mark::Symbol(symbol), Text::plain(&words)));
-        }
+    if all.len() > 1 {
+        legend.push((Mark::Nothing, Text::plain("the longer the period, the thinner")));
+    }
+    let begun = SYMBOLS
+        .into_iter()
+        .rev()
+        .filter(|symbol| curves.iter().any(|it| it.symbol == *symbol && !it.specials.is_empty()));
+    let begun: Vec<Symbol> = begun.collect();
+    let symbols = begun.iter().map(|it| (Mark::Symbol(*it), Text::plain(it.words)));
+    legend.extend(symbols);
+    if !begun.is_empty() {
+        legend.push((Mark::Nothing, Text::plain("(points from which curves are followed)")));
     }
     legend.extend(met(curves).map(|it| (Mark::Codim2(it), Text::plain(it.words))));
     legend
+}
+
+/// Periods in words.
+fn counted(periods: &BTreeSet<u64>) -> String {
+    let each: Vec<String> = periods.iter().map(u64::to_string).collect();
+    match each.as_slice() {
+        [one] => format!("period {one}"),
+        [first @ .., last] => format!("periods {} and {last}", first.join(", ")),
+        [] => String::new(),
+    }
 }
 
 /// The kinds of points of codimension 2 on the curves.
@@ -287,24 +326,37 @@ fn met(curves: &[Curve]) -> impl Iterator<Item = Codim2Symbol> {
         .filter(|symbol| curves.iter().flat_map(|it| &it.codim2).any(|(other, _)| other == symbol))
 }
 
-/// Draws the curves, and the special points of branches on them.
-pub fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
+/// The special points of branches on the curves, and their points of codimension 2.
+pub fn specials(curves: &[Curve]) -> impl Iterator<Item = Placed> + '_ {
+    curves.iter().flat_map(|curve| {
+        let one = curve.specials.iter().map(|at| (Special::One(curve.symbol), *at));
+        one.chain(curve.codim2.iter().map(|(symbol, at)| (Special::Two(*symbol), *at)))
+    })
+}
+
+/// What curves lie on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ground {
+    /// Paper.
+    Paper,
+    /// The colours of a map, from which a rim of paper lifts them.
+    Colours,
+}
+
+/// Draws the curves.
+pub fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve], ground: Ground) {
     let periods = periods(curves);
+    // Below all, so that no rim hides a curve.
+    for curve in curves.iter().filter(|_| ground == Ground::Colours) {
+        let width = curve.stroke(&periods).width + RIM;
+        panel.curve(canvas, &curve.points, Stroke::solid(PAPER, width));
+    }
     // The dashed go over the solid, so that both show where they run together.
     for symbol in SYMBOLS.into_iter().rev() {
         for curve in curves.iter().filter(|curve| curve.symbol == symbol) {
             panel.curve(canvas, &curve.points, curve.stroke(&periods));
             let series = format!("{}, period {}", symbol.words, curve.period);
             panel.record(canvas, &series, curve.points.iter().copied());
-        }
-    }
-    for curve in curves {
-        draw_symbols(canvas, panel, curve.symbol, curve.specials.iter().copied());
-    }
-    for (symbol, (x, y)) in curves.iter().flat_map(|curve| &curve.codim2) {
-        if panel.holds(*x, *y) {
-            symbol.draw(canvas, panel.place(*x, *y));
-            panel.record(canvas, symbol.words, [(*x, *y)]);
         }
     }
 }

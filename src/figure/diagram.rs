@@ -8,17 +8,18 @@ use super::canvas::{Canvas, Drawn};
 use super::cloud::{self, Dot};
 use super::data::Value;
 use super::error::FigureError;
-use super::geometry::{Point, Rect};
+use super::geometry::Rect;
 use super::header::{self, Header, Mark};
 use super::measured::MeasuredPoints;
+use super::outcome::{Outcomes, told_of_missing};
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::paint::Paint;
 use super::panel::{Panel, Pointing};
 use super::ramp_points::RampPoints;
 use super::scale::{Scale, Spacing, finite_range};
 use super::style::{ONE_COLUMN, UNDECIDED_DOT};
-use super::symbol::Symbol;
 use super::text::Text;
+use super::thinned::{Placed, Thinned, with_told};
 use super::track::elsewhere;
 use super::view::View;
 use super::without_period::WithoutPeriod;
@@ -29,11 +30,6 @@ use crate::study::Drawing;
 const SECTION_HEIGHT: f64 = 125.0;
 /// Height of the frames of outputs with one value per case [pt].
 const OUTPUT_HEIGHT: f64 = 80.0;
-/// Symbols of one kind nearer than this would hide each other [pt].
-const SYMBOL_SPACING: f64 = 2.6;
-
-/// A symbol with its place, in the units of the axes.
-pub type Placed = (Symbol, f64, f64);
 
 /// The cases that a diagram shows.
 pub struct Cases<'a> {
@@ -106,7 +102,7 @@ impl<'a> Contents<'a> {
     fn ordinates(&self, index: usize) -> Vec<f64> {
         let dots = self.clouds[index].iter().flatten().map(|dot| dot.at.1);
         dots.chain(self.lines[index].places().map(|at| at.1))
-            .chain(self.symbols.get(index).into_iter().flatten().map(|it| it.2))
+            .chain(self.symbols.get(index).into_iter().flatten().map(|it| it.1.1))
             .chain(self.ramps.ordinates(index))
             .chain(self.measured.ordinates(index))
             .collect()
@@ -147,6 +143,8 @@ pub struct Diagram<'a> {
     left_out: Option<String>,
     /// The cases that have no period.
     without_period: WithoutPeriod,
+    /// How many cases are not computed yet, in words.
+    not_yet: Option<String>,
 }
 
 impl<'a> Diagram<'a> {
@@ -161,12 +159,14 @@ impl<'a> Diagram<'a> {
         let nothing = nothing_within(&abscissa, values, &reached);
         let left_out = elsewhere(view, &[axis]).or(nothing);
         let without_period = WithoutPeriod::default();
-        let mut diagram = Diagram { contents, abscissa, within, left_out, without_period };
+        let mut diagram =
+            Diagram { contents, abscissa, within, left_out, without_period, not_yet: None };
         if let Some(mut paint) = diagram.contents.paint.take() {
             paint.list(|case| diagram.is_seen(case));
             diagram.contents.paint = Some(paint);
         }
         let Contents { cases, outputs, .. } = &diagram.contents;
+        diagram.not_yet = diagram.told_of_missing(&Outcomes::over(view, &cases.free)?);
         let abscissae = (0..cases.count())
             .map(|case| diagram.is_seen(case).then(|| cases.values[case / cases.per_value]));
         diagram.without_period = WithoutPeriod::of(view, &cases.free, outputs, abscissae)?;
@@ -179,6 +179,13 @@ impl<'a> Diagram<'a> {
         self.within.get(value).copied().unwrap_or(false)
     }
 
+    /// How many of the cases that are seen are not computed yet, in words.
+    fn told_of_missing(&self, outcomes: &Outcomes<'_>) -> Option<String> {
+        let seen = (0..self.contents.cases.count()).filter(|case| self.is_seen(*case));
+        let missing = seen.clone().filter(|case| outcomes.missing(*case)).count();
+        told_of_missing(missing, seen.count())
+    }
+
     /// Draws the diagram with a `legend` of its points; what lies `below` all else is drawn first, for each output.
     pub fn draw(
         &self,
@@ -189,16 +196,17 @@ impl<'a> Diagram<'a> {
     ) -> Drawn {
         let Contents { cases, outputs, lines, paint, measured, .. } = &self.contents;
         let legend = self.with_others(legend);
-        let page = PageRequest {
-            right_room: &|height| paint.as_ref().map_or(0.0, |it| it.room(height)),
-            ..self.request(view, legend)
-        };
-        let (mut canvas, panels) = page.lay_out();
+        // Which symbols would overlap is known once the panels have their places; what is said of them stands beside the panels.
+        let rows = self.rows(view);
+        let (_, panels) = self.laid_out(view, rows.clone(), legend.clone());
+        let thinned = self.thinned(&panels);
+        let (mut canvas, panels) = self.laid_out(view, rows, with_told(legend, &thinned));
         for (index, panel) in panels.iter().flatten().enumerate() {
             below(&mut canvas, panel, &outputs[index]);
             self.draw_points(&mut canvas, panel, index, view.drawing, style);
             self.contents.ramps.draw(&mut canvas, panel, index, view);
             lines[index].draw(&mut canvas, panel);
+            thinned[index].draw(&mut canvas, panel);
             measured.draw(&mut canvas, panel, index);
             self.without_period.draw(&mut canvas, panel, &outputs[index]);
             panel.finish(&mut canvas);
@@ -209,7 +217,33 @@ impl<'a> Diagram<'a> {
         canvas.finish(&about).noting(self.left_out.clone()).noting(outside)
     }
 
-    /// Draws the points and symbols of a panel.
+    /// The page of these rows with a `legend`, and its panels in their places.
+    fn laid_out(
+        &self,
+        view: &View<'_>,
+        rows: Vec<PanelRequest>,
+        legend: Vec<header::Entry>,
+    ) -> (Canvas, Vec<Vec<Panel>>) {
+        let paint = self.contents.paint.as_ref();
+        let page = PageRequest {
+            right_room: &|height| paint.map_or(0.0, |it| it.room(height)),
+            ..self.request(view, rows, legend)
+        };
+        page.lay_out()
+    }
+
+    /// The symbols of each panel that are drawn.
+    fn thinned(&self, panels: &[Vec<Panel>]) -> Vec<Thinned> {
+        let Contents { lines, symbols, .. } = &self.contents;
+        let mut thinned = Vec::new();
+        for (index, panel) in panels.iter().flatten().enumerate() {
+            let of_events = symbols.get(index).into_iter().flatten().copied();
+            thinned.push(Thinned::of(panel, of_events.chain(lines[index].specials())));
+        }
+        thinned
+    }
+
+    /// Draws the points of a panel.
     fn draw_points(
         &self,
         canvas: &mut Canvas,
@@ -218,7 +252,7 @@ impl<'a> Diagram<'a> {
         drawing: &Drawing,
         style: &PointStyle,
     ) {
-        let Contents { clouds, lines, symbols, .. } = &self.contents;
+        let Contents { clouds, lines, .. } = &self.contents;
         let cloud = &clouds[index];
         let wider = if lines[index].is_empty() { 1.0 } else { style.beside_lines };
         let radius = wider * cloud::radius(drawing, cloud::count(panel, cloud));
@@ -227,35 +261,45 @@ impl<'a> Diagram<'a> {
             let told = dots.iter().map(|dot| (dot.at, self.contents.value(dot.case)));
             panel.record_values(canvas, &sort.name, told);
         }
-        if let Some(symbols) = symbols.get(index) {
-            draw_symbols(canvas, panel, symbols);
-        }
     }
 
-    /// The page with a row for each output, and the legend above the first.
-    fn request<'d>(&self, view: &View<'d>, legend: Vec<header::Entry>) -> PageRequest<'d> {
-        let Contents { cases, outputs, .. } = &self.contents;
+    /// A row for each output. To ask for an axis counts what has no place on it, so that this is done once.
+    fn rows(&self, view: &View<'_>) -> Vec<PanelRequest> {
+        let outputs = &self.contents.outputs;
         let mut rows = Vec::new();
-        let mut heights = Vec::new();
         for (index, output) in outputs.iter().enumerate() {
             let ordinates = self.contents.ordinates(index);
             let y = AxisRequest::around(view.quantity(output), &ordinates, 0.06);
             let last = index + 1 == outputs.len();
             let x = AxisRequest { labelled: last, numbered: last, ..self.abscissa.clone() };
             let letter = letter(index, outputs.len());
-            rows.push(vec![PanelRequest { x, y, header: Header { letter, ..Header::default() } }]);
-            heights.push(if has_points(view, output) { SECTION_HEIGHT } else { OUTPUT_HEIGHT });
+            rows.push(PanelRequest { x, y, header: Header { letter, ..Header::default() } });
         }
+        rows
+    }
+
+    /// The page of these rows, with the legend above the first.
+    fn request<'d>(
+        &self,
+        view: &View<'d>,
+        mut rows: Vec<PanelRequest>,
+        legend: Vec<header::Entry>,
+    ) -> PageRequest<'d> {
+        let Contents { cases, outputs, .. } = &self.contents;
         let note = view.note(&cases.free, &self.left_out);
-        if let Some(first) = rows.first_mut().and_then(|row| row.first_mut()) {
+        if let Some(first) = rows.first_mut() {
             first.header.note = note;
             first.header.legend = legend;
         }
+        let heights = outputs.iter().map(|output| match has_points(view, output) {
+            true => SECTION_HEIGHT,
+            false => OUTPUT_HEIGHT,
+        });
         PageRequest {
             drawing: view.drawing,
             width_mm: ONE_COLUMN,
-            heights,
-            rows,
+            heights: heights.collect(),
+            rows: rows.into_iter().map(|row| vec![row]).collect(),
             column_room: NO_ROOM,
             right_room: NO_ROOM,
             bottom_room: 0.0,
@@ -270,13 +314,16 @@ impl<'a> Diagram<'a> {
         let of_lines = lines.iter().map(BranchLines::legend).max_by_key(Vec::len);
         let of_lines = of_lines.unwrap_or_default();
         if let (true, false, Some(dot)) = (legend.is_empty(), of_lines.is_empty(), first) {
-            legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("settled")));
+            legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("settled motion")));
         }
         // What the sweep and the branches both have is named once.
         let known: Vec<Mark> = legend.iter().map(|(mark, _)| *mark).collect();
         legend.extend(of_lines.into_iter().filter(|(mark, _)| !known.contains(mark)));
         legend.extend(self.contents.ramps.legend());
         legend.extend(self.without_period.legend());
+        // Colours tell it themselves.
+        let not_yet = self.not_yet.iter().filter(|_| paint.is_none());
+        legend.extend(not_yet.map(|it| (Mark::Nothing, Text::plain(it))));
         for (mark, words) in paint.iter().flat_map(|it| it.legend(|case| self.is_seen(case))) {
             let is_filled = matches!(mark, Mark::Filled(_));
             let mark = if is_filled { Mark::Disc(UNDECIDED_DOT, 1.6) } else { mark };
@@ -339,22 +386,6 @@ fn nothing_within(abscissa: &AxisRequest, values: &[f64], reached: &[f64]) -> Op
     let is_any = all.peek().is_some();
     let is_empty = is_any && !all.any(|x| abscissa.scale.holds(*x));
     is_empty.then(|| format!("no case lies within the limits of {}", abscissa.quantity.key))
-}
-
-/// Draws symbols, without those that would hide an earlier one of their kind.
-fn draw_symbols(canvas: &mut Canvas, panel: &Panel, symbols: &[Placed]) {
-    let mut drawn: Vec<(Symbol, Point)> = Vec::new();
-    for (symbol, x, y) in symbols {
-        let at = panel.place(*x, *y);
-        let is_hiding = drawn.iter().any(|(other, there)| {
-            other == symbol && (at.0 - there.0).hypot(at.1 - there.1) < SYMBOL_SPACING
-        });
-        if panel.holds(*x, *y) && !is_hiding {
-            symbol.draw(canvas, at);
-            panel.record(canvas, symbol.words, [(*x, *y)]);
-            drawn.push((*symbol, at));
-        }
-    }
 }
 
 /// Draws the bar or the list that explains the colours beside all panels.

@@ -5,14 +5,12 @@ use super::error::FigureError;
 use super::kind::Names;
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
+use super::thinned::{Placed, Special};
 use super::view::View;
 use crate::description::{Description, Section};
 use crate::store::catalogue::{
     EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, EVENT_PLACE, Place, section,
 };
-
-/// Symbols of one kind beyond this number would hide the diagram, and the kind is left out.
-const MOST: usize = 40;
 
 /// What is read of the events.
 pub fn reads(model: &'static Description) -> Names {
@@ -39,28 +37,20 @@ pub struct EventMarks {
     events: Vec<Event>,
     /// Value shown per value of the axis stored.
     factor: f64,
-    /// Events within the limits that are not marked: those of attractors without a colour of their own, and of kinds of which there
-    /// are too many.
-    left_out: [usize; 2],
+    /// How many events of attractors without a colour of their own lie within the limits and are not marked.
+    left_out: usize,
 }
 
 impl EventMarks {
     /// None at all.
     pub fn none() -> EventMarks {
-        EventMarks { events: Vec::new(), factor: 1.0, left_out: [0; 2] }
+        EventMarks { events: Vec::new(), factor: 1.0, left_out: 0 }
     }
 
     /// Which events are not marked, if any.
     pub fn left_out(&self) -> Option<String> {
-        let [others, crowded] = self.left_out;
-        let parts = [
-            (others, "of attractors without a colour of their own"),
-            (crowded, "of kinds that would hide the diagram"),
-        ];
-        let told = parts.iter().filter(|(count, _)| *count > 0);
-        let told: Vec<String> = told.map(|(count, which)| format!("{count} {which}")).collect();
-        (!told.is_empty())
-            .then(|| format!("special points that are not marked: {}", told.join(", ")))
+        (self.left_out > 0)
+            .then(|| format!("special points of further attractors, not marked: {}", self.left_out))
     }
 
     /// The events along the axis `x` of attractors with colours of their own, where the other axes are held.
@@ -74,18 +64,10 @@ impl EventMarks {
         let mut events = events(view, x)?;
         events.retain(|event| quantity.is_within(event.at * factor));
         let all = events.len();
-        events.retain(|event| attractors.own.contains(&event.attractor));
-        let own = events.len();
-        let crowded = SYMBOLS
-            .into_iter()
-            .filter(|symbol| events.iter().filter(|event| event.symbol == *symbol).count() > MOST);
-        let crowded: Vec<Symbol> = crowded.collect();
-        events.retain(|event| !crowded.contains(&event.symbol));
-        let left_out = [all - own, own - events.len()];
-        // Where symbols overlap, that of the shortest orbit is drawn first.
-        events.sort_by_key(|event| {
-            (SYMBOLS.iter().position(|symbol| *symbol == event.symbol), event.period)
-        });
+        events.retain(|event| attractors.has_colour(event.attractor));
+        let left_out = all - events.len();
+        // Where symbols of one kind overlap, that of the shortest orbit stays.
+        events.sort_by_key(|event| event.period);
         Ok(EventMarks { events, factor, left_out })
     }
 
@@ -101,14 +83,17 @@ impl EventMarks {
     /// The symbols on the panel of a section coordinate, with their places in its units: each at the section point
     /// of its own orbit. No other output of that orbit is known, and on other panels there are none; nor is there a place for
     /// what happens to a motion that does not repeat.
-    pub fn on(&self, view: &View<'_>, output: &str) -> Vec<(Symbol, f64, f64)> {
+    pub fn on(&self, view: &View<'_>, output: &str) -> Vec<Placed> {
         let Some(i) = section(view.model()).iter().position(|entry| entry.name == output) else {
             return Vec::new();
         };
         let factor = view.quantity(output).factor;
         let with_place = self.events.iter().filter(|event| event.section[i].is_finite());
         with_place
-            .map(|event| (event.symbol, event.at * self.factor, event.section[i] * factor))
+            .map(|event| {
+                let at = (event.at * self.factor, event.section[i] * factor);
+                (Special::One(event.symbol), at)
+            })
             .collect()
     }
 }

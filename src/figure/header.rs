@@ -29,21 +29,23 @@ pub enum Mark {
     Symbol(Symbol),
     /// The symbol of a point of codimension 2.
     Codim2(Codim2Symbol),
-    /// Discs of several colours.
-    Discs([RGBColor; 3], f64),
     /// No mark: the text continues that of the entry before.
     Nothing,
 }
 
 impl Mark {
+    /// Width in a legend with the gap behind it [pt].
+    fn room(self) -> f64 {
+        if self == Mark::Nothing { 0.0 } else { self.width() + MARK_GAP }
+    }
+
     /// Width in a legend [pt].
     fn width(self) -> f64 {
         match self {
-            Mark::Disc(..) | Mark::Ring(..) | Mark::Tick(_) | Mark::Symbol(_) | Mark::Nothing => {
-                POINT_WIDTH
-            }
+            Mark::Disc(..) | Mark::Ring(..) | Mark::Tick(_) | Mark::Symbol(_) => POINT_WIDTH,
+            Mark::Nothing => 0.0,
             Mark::Codim2(_) => 2.0 * RING,
-            Mark::Line(_) | Mark::Patch(_) | Mark::Filled(_) | Mark::Discs(..) => MARK_WIDTH,
+            Mark::Line(_) | Mark::Patch(_) | Mark::Filled(_) => MARK_WIDTH,
         }
     }
 }
@@ -157,16 +159,31 @@ pub fn draw_entries(canvas: &mut Canvas, entries: &[Entry], (left, baseline): Po
     let mut at = left;
     for (mark, words) in entries {
         draw_mark(canvas, *mark, (at, baseline - 0.3 * SMALL_SIZE));
-        at += mark.width() + MARK_GAP;
+        at += mark.room();
         canvas.text(words, (at, baseline), SMALL_SIZE, Anchor::Start);
         at += words.width(SMALL_SIZE) + ENTRY_GAP;
     }
 }
 
+/// Width of an entry [pt].
+pub fn entry_width((mark, words): &Entry) -> f64 {
+    mark.room() + words.width(SMALL_SIZE)
+}
+
+/// Entries of which none is wider than `width` [pt]: longer words go on without a mark.
+pub fn broken(legend: Vec<Entry>, width: f64) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    for (mark, words) in legend {
+        let mut lines = words.wrapped(width - mark.room(), SMALL_SIZE).into_iter();
+        entries.extend(lines.next().map(|first| (mark, first)));
+        entries.extend(lines.map(|line| (Mark::Nothing, line)));
+    }
+    entries
+}
+
 /// Width of a legend in a row [pt].
 pub fn legend_width(legend: &[Entry]) -> f64 {
-    let entries =
-        legend.iter().map(|(mark, words)| mark.width() + MARK_GAP + words.width(SMALL_SIZE));
+    let entries = legend.iter().map(entry_width);
     entries.sum::<f64>() + legend.len().saturating_sub(1) as f64 * ENTRY_GAP
 }
 
@@ -187,14 +204,6 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
             canvas.line(&[(x, y - 3.0), (x, y + 3.0)], stroke);
         }
         Mark::Disc(colour, radius) => canvas.discs(&[(centre, colour)], radius),
-        Mark::Discs(colours, radius) => {
-            let step = mark.width() / colours.len() as f64;
-            let discs = colours
-                .into_iter()
-                .enumerate()
-                .map(|(place, colour)| ((left + (place as f64 + 0.5) * step, middle), colour));
-            canvas.discs(&discs.collect::<Vec<_>>(), radius);
-        }
         Mark::Ring(colour, radius) => {
             canvas.rings(&[centre], radius, Stroke::solid(colour, CURVE_WIDTH));
         }

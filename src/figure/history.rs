@@ -240,7 +240,9 @@ fn legend(view: &View<'_>, cell: &Cell) -> Vec<(Mark, Text)> {
     }
     let surface = view.model().impact_surface().filter(|_| !cell.stops.is_empty());
     if let Some(delta) = surface {
-        return vec![(Mark::Line(GAP_LINE), view.quantity(delta.symbol()).short_name())];
+        let delta = view.quantity(delta.symbol()).short_name();
+        let words = Text::plain("stop at\u{a0}").then(delta);
+        return vec![(Mark::Line(GAP_LINE), words)];
     }
     let mut legend = Vec::new();
     if cell.curves.len() > 1 {

@@ -62,12 +62,12 @@ impl<'a> KnownAttractors<'a> {
         }
     }
 
-    /// An attractor in a phrase: its kind or period, its speed, and its share with the error.
+    /// An attractor in a phrase: its number in the file, its kind or period, its speed, and its share with the error.
     pub fn told(&self, number: usize) -> String {
         if number >= self.codes.len() {
             return format!("attractor {number}");
         }
-        let mut parts = vec![self.motion(number)];
+        let mut parts = vec![format!("attractor {number}: {}", self.motion(number))];
         parts.extend(self.speeds.get(number).map(|it| format!("{} mm/s", millimetres(*it))));
         if let (Some(share), Some(error)) = (self.shares.get(number), self.errors.get(number)) {
             parts.push(share_in_words(100.0 * share, 100.0 * error));

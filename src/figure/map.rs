@@ -3,7 +3,7 @@
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn};
 use super::category;
-use super::curves::{self, Curve};
+use super::curves::{self, Curve, Ground, draw_curves, specials};
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{self, Header, Mark};
@@ -18,6 +18,7 @@ use super::quantity::Quantity;
 use super::raster::Fill;
 use super::style::{ONE_COLUMN, TWO_COLUMNS};
 use super::text::Text;
+use super::thinned::{Thinned, with_told};
 use super::ticks::short;
 use super::view::View;
 use crate::description::Description;
@@ -46,7 +47,9 @@ fn reads(drawing: &Drawing, model: &'static Description) -> Names {
 
 /// Draws the map that `view` asks for, or one for each of several values of other axes.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let map = Map::of(view)?;
+    let mut map = Map::of(view)?;
+    // Which symbols would overlap is known once the panels have their places.
+    map.thinned = map.page(view).first().map(|panel| Thinned::of(panel, specials(&map.curves)));
     let page = PageRequest { right_room: &|height| map.paint.room(height), ..map.request(view) };
     let (mut canvas, panels) = page.lay_out();
     let all: Vec<&Panel> = panels.iter().flatten().collect();
@@ -107,6 +110,8 @@ struct Map<'a> {
     contours: Contours,
     /// The curves of special points.
     curves: Vec<Curve>,
+    /// Their special points that are drawn, alike on all panels.
+    thinned: Option<Thinned>,
     /// Which part of the cases is inferred, if any is, and how well.
     inferred: Vec<String>,
 }
@@ -128,7 +133,25 @@ impl<'a> Map<'a> {
             true => curves::curves(view, &plane.names().map(str::to_owned)),
             false => Vec::new(),
         };
-        Ok(Map { plane, output, panels, lengths, paint, seen, contours, curves, inferred })
+        Ok(Map {
+            plane,
+            output,
+            panels,
+            lengths,
+            paint,
+            seen,
+            contours,
+            curves,
+            thinned: None,
+            inferred,
+        })
+    }
+
+    /// The panels in their places, as far as these are known without what is said of symbols.
+    fn page(&self, view: &View<'_>) -> Vec<Panel> {
+        let page =
+            PageRequest { right_room: &|height| self.paint.room(height), ..self.request(view) };
+        page.lay_out().1.into_iter().flatten().collect()
     }
 
     /// The page of the panels, the numbers of whose axes stand where no panel lies beyond.
@@ -176,7 +199,10 @@ impl<'a> Map<'a> {
         legend.extend(self.plane.legend());
         legend.extend(self.contours.legend());
         legend.extend(curves::legend(&self.curves));
-        legend
+        match &self.thinned {
+            Some(thinned) => with_told(legend, std::slice::from_ref(thinned)),
+            None => legend,
+        }
     }
 
     /// Draws the cells of a panel, by its number, and the lines over them.
@@ -190,7 +216,10 @@ impl<'a> Map<'a> {
             let heights = Heights { values, noise: self.contours.quantity.noise };
             plane.draw_contours(canvas, panel, &heights, &self.contours.levels);
         }
-        curves::draw_curves(canvas, panel, &self.curves);
+        draw_curves(canvas, panel, &self.curves, Ground::Colours);
+        if let Some(thinned) = &self.thinned {
+            thinned.draw(canvas, panel);
+        }
     }
 }
 

@@ -1,12 +1,12 @@
 //! Shown: draws stored records.
 
 mod along_path;
+mod attractor_colours;
 mod attractor_diagram;
 mod attractors;
 mod axis;
 mod axis_numbers;
 mod basin;
-mod basin_colours;
 mod bifurcation;
 mod canvas;
 mod caption;
@@ -67,6 +67,7 @@ mod spectrum;
 mod style;
 mod symbol;
 mod text;
+mod thinned;
 mod ticks;
 mod track;
 mod trade_off;
@@ -97,10 +98,11 @@ pub use trade_off_cells::{TradeOffAxis, TradeOffCells, trade_off_cells};
 pub use trade_off_outputs::gain_of;
 
 use crate::description::Description;
-use crate::store::catalogue::Entry;
+use crate::store::catalogue::{ATTRACTOR, Entry};
 use crate::study::appearance::NATURAL;
 use crate::study::{Coordinate, Drawing, DrawingKind, Size, Sweep};
 use along_path::ByQuantities;
+use attractor_colours::Colours;
 use canvas::Drawn;
 use origin::Origin;
 use output::Figure;
@@ -123,8 +125,10 @@ pub fn variables(drawing: &Drawing, model: &'static Description) -> BTreeSet<Str
     let names = reads(drawing, model).and(varied::READS);
     let names = names.and(Coordinate::all(model).map(Entry::of_coordinate));
     let of_natural = model.natural().into_iter().flatten().map(Entry::of_parameter);
+    // Whatever shows attractors has their colours.
+    let of_attractors = [ATTRACTOR].into_iter().filter(|_| drawing.kind.keys().attractors);
     let is_natural = drawing.settings.values().any(|it| it.unit == Some(NATURAL));
-    names.and(of_natural.filter(|_| is_natural)).into_set()
+    names.and(of_attractors).and(of_natural.filter(|_| is_natural)).into_set()
 }
 
 /// Draws `drawing` from the results in `shown` and writes `<folder>/<name>.<extension>` in each format of `place`,
@@ -188,7 +192,12 @@ fn drawn(shown: Shown<'_>, drawing: &Drawing) -> Result<(Drawn, Vec<String>), Fi
     if let Some(why) = drawn.fault {
         return Err(FigureError::Render { figure, why });
     }
-    let notes = [view.taken_for_another(), drawn.notes.clone(), view.notes_of_settings()].concat();
+    let of_colours = match view.drawing.colours.is_empty() {
+        true => Vec::new(),
+        false => Colours::of(&view)?.notes(&view.drawing.colours),
+    };
+    let notes = [view.taken_for_another(), drawn.notes.clone(), view.notes_of_settings()];
+    let notes = [notes.concat(), of_colours].concat();
     Ok((drawn, notes))
 }
 
@@ -249,6 +258,14 @@ fn check_keys(view: &View<'_>) -> Result<(), FigureError> {
     }
     if drawing.colour_by.is_some() && !keys.coloured {
         return Err(view.unfit(format!("`colour_by` does not go with a {}", kind.name())));
+    }
+    if !drawing.colours.is_empty() && !keys.attractors {
+        return Err(view.unfit(format!("`colours` does not go with a {}", kind.name())));
+    }
+    if drawing.budget.is_some() && kind != DrawingKind::TradeOff {
+        return Err(
+            view.unfit(format!("`budget` goes with a trade-off, not with a {}", kind.name()))
+        );
     }
     if let Some(mark) = drawing.hide.iter().find(|mark| !keys.marks.contains(&mark.as_str())) {
         let marks = keys.marks.join(", ");

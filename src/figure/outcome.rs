@@ -7,6 +7,16 @@ use crate::store::catalogue::{Entry, OUTCOME};
 /// What is read of each case.
 pub const READS: [Entry; 1] = [OUTCOME];
 
+/// The outcome of a case whose block is not there yet.
+const MISSING: &str = "missing";
+/// What figures call such cases.
+pub const NOT_YET: &str = "not yet computed";
+
+/// What is said of so many cases that are not computed yet among all that are shown; nothing where there are none.
+pub fn told_of_missing(missing: usize, all: usize) -> Option<String> {
+    (missing > 0).then(|| format!("{NOT_YET}: {missing} of {all}"))
+}
+
 /// Stands for a case of which nothing is known.
 const UNKNOWN: u8 = u8::MAX;
 
@@ -42,6 +52,11 @@ impl<'a> Outcomes<'a> {
     /// Whether a case is known to have failed.
     pub fn failed(&self, case: usize) -> bool {
         self.name(case) == Some("failed")
+    }
+
+    /// Whether a case is not computed yet.
+    pub fn missing(&self, case: usize) -> bool {
+        self.name(case) == Some(MISSING)
     }
 
     /// Whether a case is periodic, or nothing else is known of it.

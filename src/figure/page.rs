@@ -18,6 +18,7 @@ use super::text::Text;
 use crate::study::{Drawing, Size};
 
 /// What a panel is to show.
+#[derive(Clone)]
 pub struct PanelRequest {
     /// The abscissa.
     pub x: AxisRequest,

@@ -10,19 +10,52 @@ use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::Mark;
 use super::inferred;
-use super::outcome::Outcomes;
+use super::outcome::{Outcomes, told_of_missing};
 use super::raster::Fill;
-use super::style::{INFERRED, INFINITE};
+use super::style::{INFERRED, INFINITE, NOT_YET};
 use super::text::Text;
 use super::view::View;
 
 /// What follows the name of a quantity whose difference between two sweeps is shown.
 const DIFFERENCE: &str = ", downward − upward";
 
+/// How a case was come by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ComeBy {
+    /// It was computed.
+    Computed,
+    /// It is inferred from those around it.
+    Inferred,
+    /// It is not computed yet.
+    NotYet,
+}
+
+impl ComeBy {
+    /// That of each of so many cases.
+    fn all(outcomes: &Outcomes<'_>, cases: usize) -> Vec<ComeBy> {
+        let each = inferred::inferred(outcomes, cases).into_iter().enumerate();
+        let each = each.map(|(case, is_inferred)| match is_inferred {
+            true => ComeBy::Inferred,
+            false if outcomes.missing(case) => ComeBy::NotYet,
+            false => ComeBy::Computed,
+        });
+        each.collect()
+    }
+
+    /// That of the difference of two cases.
+    fn of_both(self, other: ComeBy) -> ComeBy {
+        match [self, other].contains(&ComeBy::NotYet) {
+            true => ComeBy::NotYet,
+            false if self == ComeBy::Computed => other,
+            false => self,
+        }
+    }
+}
+
 /// How cases are coloured.
 pub enum Paint {
-    /// By their values; those that are inferred and have none are marked.
-    Numbers(Option<Colours>, Vec<f64>, Vec<bool>),
+    /// By their values, with how each case was come by, which tells why it may have none.
+    Numbers(Option<Colours>, Vec<f64>, Vec<ComeBy>),
     /// By their kinds.
     Kinds(Kinds),
 }
@@ -41,7 +74,7 @@ impl Paint {
         if category::is_sorted(view, name) {
             return Ok(Paint::Kinds(Kinds::of(view, panels, name, free)?));
         }
-        let (mut all, mut all_inferred) = (Vec::new(), Vec::new());
+        let (mut all, mut come_by) = (Vec::new(), Vec::new());
         for panel in panels {
             let values = numbers(panel, name, free)?;
             if values.len() != cases {
@@ -49,7 +82,7 @@ impl Paint {
                 return Err(view.unfit(why));
             }
             all.extend(values);
-            all_inferred.extend(inferred::inferred(&Outcomes::over(panel, free)?, cases));
+            come_by.extend(ComeBy::all(&Outcomes::over(panel, free)?, cases));
         }
         let is_axis = view.dataset.variable(name).is_none();
         let quantity = view.quantity(name);
@@ -61,7 +94,7 @@ impl Paint {
             }
             false => Colours::for_values(&of_seen(&all, seen), quantity),
         };
-        Ok(Paint::Numbers(colours, all, all_inferred))
+        Ok(Paint::Numbers(colours, all, come_by))
     }
 
     /// The colours of the differences of two sweeps, the second less the first.
@@ -77,22 +110,23 @@ impl Paint {
         }
         let [of_first, of_second] = [numbers(first, name, free)?, numbers(second, name, free)?];
         let values: Vec<f64> = of_second.iter().zip(&of_first).map(|(b, a)| b - a).collect();
-        let inferred = [first, second].map(|view| {
-            Ok::<_, FigureError>(inferred::inferred(&Outcomes::over(view, free)?, cases))
-        });
-        let [a, b] = inferred;
-        let inferred = a?.into_iter().zip(b?).map(|(a, b)| a || b).collect();
+        let come_by = [first, second]
+            .map(|view| Ok::<_, FigureError>(ComeBy::all(&Outcomes::over(view, free)?, cases)));
+        let [a, b] = come_by;
+        let come_by = a?.into_iter().zip(b?).map(|(a, b)| a.of_both(b)).collect();
         let quantity = first.quantity(name).followed_by(DIFFERENCE);
-        Ok(Paint::Numbers(Colours::for_values(&of_seen(&values, seen), quantity), values, inferred))
+        Ok(Paint::Numbers(Colours::for_values(&of_seen(&values, seen), quantity), values, come_by))
     }
 
     /// The colour of a case; none where it has no value.
     pub fn colour(&self, case: usize) -> Option<RGBColor> {
         match self {
             Paint::Numbers(_, values, _) if values[case].is_infinite() => Some(INFINITE),
-            Paint::Numbers(_, values, inferred) if values[case].is_nan() => {
-                inferred[case].then_some(INFERRED)
-            }
+            Paint::Numbers(_, values, come_by) if values[case].is_nan() => match come_by[case] {
+                ComeBy::Inferred => Some(INFERRED),
+                ComeBy::NotYet => Some(NOT_YET),
+                ComeBy::Computed => None,
+            },
             Paint::Numbers(colours, values, _) => {
                 colours.as_ref().filter(|it| it.has(values[case])).map(|it| it.of(values[case]))
             }
@@ -158,18 +192,28 @@ impl Paint {
 
     /// The entries that the colour bar does not explain, for the cases that are seen.
     pub fn legend(&self, seen: impl Fn(usize) -> bool) -> Vec<(Mark, Text)> {
-        let Paint::Numbers(colours, values, inferred) = self else { return Vec::new() };
-        let cases = values.iter().zip(inferred).enumerate().filter(|(case, _)| seen(*case));
-        let cases: Vec<(&f64, &bool)> = cases.map(|(_, it)| it).collect();
+        let (colours, values, come_by) = match self {
+            Paint::Numbers(colours, values, come_by) => (colours, values, come_by),
+            Paint::Kinds(kinds) => {
+                let words = kinds.told_of_missing(seen);
+                return words.map(|it| (Mark::Nothing, Text::plain(&it))).into_iter().collect();
+            }
+        };
+        let cases = values.iter().zip(come_by).enumerate().filter(|(case, _)| seen(*case));
+        let cases: Vec<(&f64, ComeBy)> = cases.map(|(_, (value, by))| (value, *by)).collect();
         let mut legend = Vec::new();
         if cases.iter().any(|(value, _)| value.is_infinite()) {
             legend.push((Mark::Patch(INFINITE), Text::plain("infinite")));
         }
-        let mut without = cases.iter().filter(|(value, _)| value.is_nan());
-        if without.clone().any(|(_, inferred)| **inferred) {
-            legend.push((Mark::Patch(INFERRED), Text::plain("not computed")));
+        let without: Vec<ComeBy> =
+            cases.iter().filter(|(value, _)| value.is_nan()).map(|(_, by)| *by).collect();
+        if without.contains(&ComeBy::Inferred) {
+            legend.push((Mark::Patch(INFERRED), Text::plain("inferred, not computed")));
         }
-        let has_none = without.any(|(_, inferred)| !**inferred);
+        let not_yet = without.iter().filter(|it| **it == ComeBy::NotYet).count();
+        let not_yet = told_of_missing(not_yet, cases.len());
+        legend.extend(not_yet.map(|words| (Mark::Patch(NOT_YET), Text::plain(&words))));
+        let has_none = without.contains(&ComeBy::Computed);
         let some_have_no_place = colours.as_ref().is_some_and(|colours| {
             cases.iter().any(|(it, _)| it.is_finite() && !colours.has(**it))
         });

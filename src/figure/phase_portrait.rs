@@ -1,5 +1,10 @@
 //! One coordinate of a motion over another, with the impact surface, section points and impacts: a panel for each case.
 
+use std::collections::BTreeMap;
+
+use plotters::style::RGBColor;
+
+use super::attractor_colours::Colours;
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::case_panels::{CasePanel, case_panels};
@@ -10,7 +15,7 @@ use super::kind::{Kind, Names, Needs};
 use super::motion::{Motion, ShownCycles, sources, sources_of_arcs};
 use super::page::{PageRequest, PanelRequest, in_rows, letter};
 use super::panel::Panel;
-use super::style::{BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, REFERENCE_WIDTH, VERMILION};
+use super::style::{BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, PAPER, REFERENCE_WIDTH};
 use super::text::Text;
 use super::view::View;
 use crate::description::Description;
@@ -29,6 +34,8 @@ const IMPACT_RADIUS: f64 = 2.2;
 /// What a portrait shows, in the units of its axes.
 struct Portrait {
     orbit: Vec<(f64, f64)>,
+    /// Its attractor with the colour that figures give it, where the results number it.
+    attractor: Option<(usize, RGBColor)>,
     sections: Vec<(f64, f64)>,
     impacts: Vec<(f64, f64)>,
     /// Where the mass reaches its stops, along the abscissa and along the ordinate, and on which side they are, 1 or -1.
@@ -155,7 +162,9 @@ impl Portrait {
             let met = stops.iter().filter(|_| met == Some(names[axis]));
             met.map(|(at, side)| (at * factors[axis], *side)).collect()
         });
-        Ok(Portrait { orbit, sections, impacts, stops })
+        let colours = Colours::of(view)?;
+        let attractor = panel.attractor()?.map(|number| (number, colours.colour(number)));
+        Ok(Portrait { orbit, attractor, sections, impacts, stops })
     }
 
     /// All places that it shows.
@@ -174,11 +183,17 @@ fn places(coordinates: [Vec<f64>; 2], factors: [f64; 2]) -> Vec<(f64, f64)> {
 /// What the marks mean that any of `portraits` has.
 fn legend(view: &View<'_>, portraits: &[Portrait]) -> Vec<(Mark, Text)> {
     let mut legend = Vec::new();
+    let attractors: BTreeMap<usize, RGBColor> =
+        portraits.iter().filter_map(|it| it.attractor).collect();
+    for (number, colour) in attractors {
+        let words = Text::plain(&format!("attractor {number}"));
+        legend.push((Mark::Line(Stroke::solid(colour, CURVE_WIDTH)), words));
+    }
     if portraits.iter().any(|it| !it.sections.is_empty()) {
         legend.push((Mark::Disc(INK, SECTION_RADIUS), Text::plain("stroboscopic")));
     }
     if portraits.iter().any(|it| !it.impacts.is_empty()) {
-        legend.push((Mark::Ring(VERMILION, IMPACT_RADIUS), Text::plain("impact")));
+        legend.push((Mark::Ring(INK, IMPACT_RADIUS), Text::plain("impact")));
     }
     let most_stops = portraits.iter().flat_map(|it| it.stops.iter().map(Vec::len)).max();
     if most_stops > Some(1) {
@@ -218,9 +233,12 @@ fn draw_contact(canvas: &mut Canvas, panel: &Panel, stops: &[Vec<(f64, f64)>; 2]
 
 fn draw_portrait(canvas: &mut Canvas, panel: &Panel, portrait: &Portrait) {
     draw_contact(canvas, panel, &portrait.stops);
-    panel.curve(canvas, &portrait.orbit, Stroke::solid(BLUE, CURVE_WIDTH));
-    let rings = Stroke::solid(VERMILION, CURVE_WIDTH);
-    canvas.rings(&panel.places(&portrait.impacts), IMPACT_RADIUS, rings);
+    let colour = portrait.attractor.map_or(BLUE, |it| it.1);
+    panel.curve(canvas, &portrait.orbit, Stroke::solid(colour, CURVE_WIDTH));
+    let impacts = panel.places(&portrait.impacts);
+    let paper: Vec<_> = impacts.iter().map(|at| (*at, PAPER)).collect();
+    canvas.discs(&paper, IMPACT_RADIUS);
+    canvas.rings(&impacts, IMPACT_RADIUS, Stroke::solid(INK, CURVE_WIDTH));
     let sections: Vec<_> =
         panel.places(&portrait.sections).into_iter().map(|at| (at, INK)).collect();
     canvas.discs(&sections, SECTION_RADIUS);

@@ -67,10 +67,16 @@ impl Quantity {
         let is_coordinate = dataset.model().points().any(|it| it.name == name);
         let is_ratio = is_result && unit == "1" && !is_coordinate;
         let described = catalogue::named(name, dataset.model());
+        // A parameter of an oscillator that is a text has a symbol, and a meaning if that gives one.
+        let meaning = described.map(|it| it.meaning).filter(|it| !it.ends_with(name));
+        let meaning = meaning.filter(|_| dataset.model().parameter(name).is_some());
         match described.and_then(|entry| entry.shown) {
             Some(Shown { label, symbol, unit, factor }) => Quantity {
                 key: name.to_owned(),
-                name: Text::plain(label),
+                name: match meaning.filter(|_| label.is_empty()) {
+                    Some(meaning) => Text::plain(&capitalised(meaning)),
+                    None => Text::plain(label),
+                },
                 symbol: symbol.to_string(),
                 unit: unit.to_string(),
                 factor,
@@ -108,11 +114,9 @@ impl Quantity {
 
     /// A quantity called by words, with a unit as files have it.
     fn called(key: &str, words: &str, unit: &str) -> Quantity {
-        let mut letters = if words.is_empty() { key } else { words }.chars();
-        let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
         Quantity {
             key: key.to_owned(),
-            name: Text::plain(&(first + letters.as_str())),
+            name: Text::plain(&capitalised(if words.is_empty() { key } else { words })),
             symbol: String::new(),
             unit: if unit == "1" { String::new() } else { raised(unit) },
             factor: 1.0,
@@ -300,6 +304,13 @@ impl Quantity {
         let equals = format!(" = {}{unit}", short(value * self.factor)).replace(' ', "\u{a0}");
         self.short_name().then(Text::markup(&equals))
     }
+}
+
+/// Words with a capital at their head.
+fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    first + letters.as_str()
 }
 
 /// Whether values never fall, or never rise.

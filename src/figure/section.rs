@@ -2,8 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use plotters::style::RGBColor;
+
+use super::attractor_colours::Colours;
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn};
+use super::case_panels::CasePanel;
 use super::cloud::{self, Dot};
 use super::error::FigureError;
 use super::header::Header;
@@ -40,13 +44,16 @@ struct Section {
     name: &'static str,
     quantities: [Quantity; 2],
     points: Vec<[f64; 2]>,
+    /// Its attractor by the number in the file, with its colour, where the results number it.
+    attractor: Option<(usize, RGBColor)>,
 }
 
 impl Section {
-    /// How many points it has.
+    /// How many points it has, and of which attractor.
     fn told(&self) -> String {
         let count = self.points.len();
-        format!("{count} {}{}", self.name, if count == 1 { "" } else { "s" })
+        let of = self.attractor.map_or(String::new(), |it| format!(" of attractor {}", it.0));
+        format!("{count} {}{}{of}", self.name, if count == 1 { "" } else { "s" })
     }
 
     /// Its panel with this letter; `held` says where the axes are held, where the panel is the one that says it.
@@ -68,9 +75,10 @@ impl Section {
     /// Draws its points.
     fn draw(&self, canvas: &mut Canvas, panel: &Panel, drawing: &Drawing) {
         let crowding = self.points.len() as f64;
+        let colour = self.attractor.map_or(INK, |it| it.1);
         let mut dots = Vec::new();
         for [x, y] in &self.points {
-            dots.push(Dot { at: (*x, *y), colour: INK, crowding, case: 0 });
+            dots.push(Dot { at: (*x, *y), colour, crowding, case: 0 });
         }
         cloud::draw(canvas, panel, &dots, cloud::radius(drawing, dots.len()));
         panel.record(canvas, self.name, dots.iter().map(|dot| dot.at));
@@ -94,8 +102,11 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 
 /// What the figure shows of the results: at least one section.
 fn sections(view: &View<'_>) -> Result<Vec<Section>, FigureError> {
-    let sections: Vec<Section> =
-        [stroboscopic(view)?, at_impacts(view)?].into_iter().flatten().collect();
+    let attractor = CasePanel { view: view.clone(), free: Vec::new(), case: 0 }.attractor()?;
+    let colours = Colours::of(view)?;
+    let attractor = attractor.map(|number| (number, colours.colour(number)));
+    let found = [stroboscopic(view)?, at_impacts(view)?].into_iter().flatten();
+    let sections: Vec<Section> = found.map(|section| Section { attractor, ..section }).collect();
     if section(view.model()).len() < 2 {
         let why = "section points of one coordinate have no plane; `bifurcation` shows them";
         return Err(view.unfit(why));
@@ -200,7 +211,7 @@ fn shown(view: &View<'_>, entry: Entry) -> Result<Vec<f64>, FigureError> {
 fn section_of(name: &'static str, quantities: [Quantity; 2], x: Vec<f64>, y: Vec<f64>) -> Section {
     let both = x.into_iter().zip(y).map(|(x, y)| [x, y]);
     let points: Vec<[f64; 2]> = both.filter(|at| at.iter().all(|it| it.is_finite())).collect();
-    Section { name, quantities, points }
+    Section { name, quantities, points, attractor: None }
 }
 
 #[cfg(test)]

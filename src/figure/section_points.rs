@@ -2,8 +2,9 @@
 
 use plotters::style::RGBColor;
 
-use super::basin_colours::colour;
+use super::attractor_colours::Colours;
 use super::canvas::{Canvas, Stroke};
+use super::geometry::Point;
 use super::kind::Names;
 use super::panel::Panel;
 use super::plane::Plane;
@@ -37,13 +38,13 @@ pub struct SectionPoint {
 }
 
 /// The section points of the periodic attractors, by attractor, where the section is at the phase of the starts.
-pub fn section_points(view: &View<'_>, plane: &Plane<'_>) -> Vec<SectionPoint> {
+pub fn section_points(view: &View<'_>, plane: &Plane<'_>, colours: &Colours) -> Vec<SectionPoint> {
     let places = in_plane(view, plane, &of_attractors(view.model()));
     let attractors = view.coordinate_values(ATTRACTOR_INDEX.name).len();
     let cycles = (places.len() / attractors.max(1)).max(1);
     let mut points = Vec::new();
     for (place, at) in places.into_iter().enumerate() {
-        points.push(SectionPoint { at, colour: colour(place / cycles) });
+        points.push(SectionPoint { at, colour: colours.colour(place / cycles) });
     }
     points.retain(|point| is_finite(point.at));
     points
@@ -86,6 +87,16 @@ fn along(view: &View<'_>, axis: &str, columns: &[Vec<f64>]) -> Vec<f64> {
     let points = columns.first().map_or(0, Vec::len);
     let values = place.map_or(vec![0.0; points], |place| columns[place].clone());
     values.into_iter().map(|value| value * factor).collect()
+}
+
+/// How many section points of attractors and of saddles lie behind others: the middle of one that is drawn later is on them.
+pub fn behind(panel: &Panel, points: &[SectionPoint], saddles: &[(f64, f64)]) -> usize {
+    let points = points.iter().map(|it| it.at).chain(saddles.iter().copied());
+    let places: Vec<Point> = panel.places(&points.collect::<Vec<_>>());
+    let is_behind = |(place, at): &(usize, &Point)| {
+        places[place + 1..].iter().any(|it| (it.0 - at.0).hypot(it.1 - at.1) < RADIUS)
+    };
+    places.iter().enumerate().filter(is_behind).count()
 }
 
 /// Draws section points, those of each attractor in its colour.

@@ -1,20 +1,21 @@
 //! For how many cycles each start is followed until its attractor is decided, over two coordinates of the start.
 
+use super::attractor_colours::Colours as Attractors;
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn};
 use super::colour::Colours;
 use super::data::Value;
 use super::error::FigureError;
 use super::header::{self, Header, Mark};
-use super::inferred::{self, inferred};
+use super::inferred::inferred;
 use super::kind::{Kind, Names, Needs};
-use super::outcome::{self, Outcomes};
+use super::outcome::{self, Outcomes, told_of_missing};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
 use super::section_points::{self, RADIUS, SectionPoint, draw_section_points, section_points};
-use super::style::{INFERRED, INK};
+use super::style::{INFERRED, INK, NOT_YET};
 use super::text::Text;
 use super::view::View;
 use crate::description::Description;
@@ -55,6 +56,8 @@ struct Settling<'a> {
     cycles: Vec<f64>,
     /// Whether a case is inferred.
     inferred: Vec<bool>,
+    /// Whether a case is not computed yet.
+    not_yet: Vec<bool>,
     /// The colours of the cycles; none where no case has any.
     colours: Option<Colours>,
     /// The section points of the attractors.
@@ -69,17 +72,18 @@ impl<'a> Settling<'a> {
         let mut cycles: Vec<f64> = view.shown(CYCLES.name, &free)?.into_iter().collect();
         let outcomes = Outcomes::over(view, &free)?;
         let inferred = inferred(&outcomes, cycles.len());
+        let not_yet: Vec<bool> = (0..cycles.len()).map(|case| outcomes.missing(case)).collect();
         for (case, cycles) in cycles.iter_mut().enumerate() {
-            if matches!(outcomes.name(case), Some(inferred::NAME | "failed" | "missing")) {
+            if inferred[case] || not_yet[case] || outcomes.failed(case) {
                 *cycles = f64::NAN;
             }
         }
         let colours = Colours::for_values(&cycles, view.quantity(CYCLES.name));
         let points = match view.shows("section-points") {
-            true => section_points(view, &plane),
+            true => section_points(view, &plane, &Attractors::of(view)?),
             false => Vec::new(),
         };
-        Ok(Settling { plane, cycles, inferred, colours, points })
+        Ok(Settling { plane, cycles, inferred, not_yet, colours, points })
     }
 
     /// The panel with what its fills and marks mean.
@@ -102,10 +106,14 @@ impl<'a> Settling<'a> {
         if self.inferred.contains(&true) {
             legend.push((Mark::Patch(INFERRED), Text::plain("inferred, not followed")));
         }
-        let mut cases = self.cycles.iter().zip(&self.inferred);
-        if cases.any(|(cycles, inferred)| cycles.is_nan() && !inferred) {
+        let cases = self.cycles.iter().zip(self.inferred.iter().zip(&self.not_yet));
+        let mut computed = cases.filter(|(_, (inferred, not_yet))| !*inferred && !*not_yet);
+        if computed.any(|(cycles, _)| cycles.is_nan()) {
             legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain("no result")));
         }
+        let missing = self.not_yet.iter().filter(|it| **it).count();
+        let missing = told_of_missing(missing, self.not_yet.len());
+        legend.extend(missing.map(|words| (Mark::Patch(NOT_YET), Text::plain(&words))));
         legend.extend(self.plane.legend());
         legend
     }
@@ -115,6 +123,7 @@ impl<'a> Settling<'a> {
         let cycles = self.cycles[case];
         match &self.colours {
             _ if self.inferred[case] => Fill::Plain(INFERRED),
+            _ if self.not_yet[case] => Fill::Plain(NOT_YET),
             Some(colours) if !cycles.is_nan() && colours.has(cycles) => {
                 Fill::Plain(colours.of(cycles))
             }

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use ndarray::ArrayD;
 use plotters::style::RGBColor;
 
+use super::attractor_colours::Colours;
 use super::axis::AxisRequest;
-use super::basin_colours::{band, colour};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::error::FigureError;
@@ -78,7 +78,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (mut canvas, panels) = page.lay_out();
     for (row, panel) in panels.iter().flatten().enumerate() {
         match &room {
-            Some(room) if row == 1 => room.draw(&mut canvas, panel),
+            Some(room) if row == 1 => room.draw(&mut canvas, panel, &bands.colours),
             _ => bands.draw(&mut canvas, panel),
         }
         panel.finish(&mut canvas);
@@ -137,14 +137,14 @@ impl Room {
     }
 
     /// A line for each measure of each attractor, in the attractor's colour.
-    fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
+    fn draw(&self, canvas: &mut Canvas, panel: &Panel, colours: &Colours) {
         for (number, [shock, ball]) in self.numbers.iter().enumerate() {
             for (measure, dashed) in [(ball, false), (shock, true)] {
                 let line: Vec<(f64, f64)> =
                     self.values.iter().copied().zip(measure.iter().copied()).collect();
-                panel.curve(canvas, &line, stroke(colour(number), dashed));
+                panel.curve(canvas, &line, stroke(colours.colour(number), dashed));
                 let name = if dashed { "minimal critical shock" } else { "largest ball inside" };
-                let series = format!("{name}, attractor {}", number + 1);
+                let series = format!("{name}, attractor {number}");
                 panel.record(canvas, &series, line);
             }
         }
@@ -213,6 +213,7 @@ struct Bands<'a> {
     /// What the results tell of the attractors: a row for each value, as the shares.
     attractors: KnownAttractors<'a>,
     speeds: Speeds,
+    colours: Colours,
 }
 
 impl<'a> Bands<'a> {
@@ -232,6 +233,7 @@ impl<'a> Bands<'a> {
             incomplete,
             attractors: KnownAttractors::of(view),
             speeds: Speeds::of(view),
+            colours: Colours::of(view)?,
         })
     }
 
@@ -254,8 +256,8 @@ impl<'a> Bands<'a> {
     fn legend(&self) -> Vec<header::Entry> {
         let mut legend = Vec::new();
         for number in 0..self.count() {
-            let text = format!("attractor {}: {}", number + 1, self.told(number).join(", "));
-            legend.push((Mark::Patch(band(number)), Text::plain(&text)));
+            let text = format!("attractor {number}: {}", self.told(number).join(", "));
+            legend.push((Mark::Patch(self.colours.band(number)), Text::plain(&text)));
         }
         if self.shares.iter().any(|shares| 1.0 - shares.iter().sum::<f64>() > NOTHING) {
             legend.push((Mark::Patch(UNDECIDED), Text::plain("attractor unknown")));
@@ -276,7 +278,7 @@ impl<'a> Bands<'a> {
         for (number, share) in self.shares[value].iter().enumerate() {
             below += share;
             if height < below {
-                return band(number);
+                return self.colours.band(number);
             }
         }
         UNDECIDED
@@ -289,7 +291,7 @@ impl<'a> Bands<'a> {
                 self.cells.values().enumerate().map(|(cell, value)| {
                     (value, 100.0 * self.shares[self.cells.place(cell)][number])
                 });
-            panel.record(canvas, &format!("attractor {}", number + 1), values);
+            panel.record(canvas, &format!("attractor {number}"), values);
         }
         let raster = Raster::cells(
             panel.frame,

@@ -16,7 +16,7 @@ use super::outcome;
 use super::page::{PageRequest, PanelRequest, in_rows, letter};
 use super::panel::Panel;
 use super::scale::{Scale, Spacing, finite_range};
-use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, REFERENCE_WIDTH};
+use super::style::{BLUE, CURVE_WIDTH, INK, REFERENCE_WIDTH};
 use super::text::Text;
 use super::view::View;
 use crate::description::{Description, SignalKind};
@@ -81,7 +81,7 @@ impl Span {
     /// In words.
     fn told(self) -> String {
         let (count, words) = match self {
-            Span::Period(count) => (count, "lines of the period of"),
+            Span::Period(count) => (count, "Fourier series over"),
             Span::Windowed(count) => (count, "Hann window over"),
         };
         format!("{words} {count} cycle{}", if count == 1 { "" } else { "s" })
@@ -150,7 +150,7 @@ impl<'a> Spectra<'a> {
 }
 
 /// The line at the frequency of the drive.
-const DRIVE: Stroke = Stroke::dashed(FAINT_INK, REFERENCE_WIDTH);
+const DRIVE: Stroke = Stroke::dashed(INK, REFERENCE_WIDTH);
 
 impl Spectrum {
     /// The spectrum of a quantity over as many whole cycles as its history has.
@@ -197,7 +197,7 @@ impl Spectrum {
     /// What its marks mean, as far as those of the spectrum before do not say it.
     fn legend(&self, view: &View<'_>, before: Option<&Spectrum>) -> Vec<(Mark, Text)> {
         let drive = (view.shows("drive") && before.is_none())
-            .then(|| (Mark::Line(DRIVE), Text::plain("drive")));
+            .then(|| (Mark::Line(DRIVE), Text::plain("drive frequency")));
         let span = before
             .is_none_or(|it| it.span != self.span)
             .then(|| (Mark::Nothing, Text::plain(&self.span.told())));
@@ -206,10 +206,6 @@ impl Spectrum {
 
     /// Draws the amplitudes, and a line at the frequency of the drive if it is shown.
     fn draw(&self, canvas: &mut Canvas, panel: &Panel, shows_drive: bool) {
-        if shows_drive {
-            let drive = [(self.drive, panel.y.scale.low), (self.drive, panel.y.scale.high)];
-            panel.curve(canvas, &drive, DRIVE);
-        }
         let stroke = Stroke::solid(BLUE, CURVE_WIDTH);
         match self.span {
             Span::Windowed(_) => panel.curve(canvas, &self.lines, stroke),
@@ -219,6 +215,11 @@ impl Spectrum {
                     panel.curve(canvas, &[(frequency, low), (frequency, amplitude)], stroke);
                 }
             }
+        }
+        // Over the line of the spectrum that stands there.
+        if shows_drive {
+            let drive = [(self.drive, panel.y.scale.low), (self.drive, panel.y.scale.high)];
+            panel.curve(canvas, &drive, DRIVE);
         }
         panel.record(canvas, &self.output, self.lines.iter().copied());
         panel.finish(canvas);
@@ -236,11 +237,24 @@ impl Spectrum {
         last.max(2.0 * drive)
     }
 
+    /// The amplitude from which the axis goes: below the least line of a series that is shown, none of which may be less than a share of
+    /// the largest.
+    fn least(&self) -> f64 {
+        let (least, last) = (SHOWN * self.largest(), self.last());
+        let shown = self.lines.iter().filter(|line| line.0 <= last && line.1 >= least);
+        match self.span {
+            Span::Period(_) => {
+                shown.map(|line| 0.3 * line.1).fold(f64::INFINITY, f64::min).max(least)
+            }
+            Span::Windowed(_) => least,
+        }
+    }
+
     /// The range of amplitudes.
     fn amplitudes(&self) -> Scale {
         let largest = self.largest();
         match largest > 0.0 {
-            true => Scale { spacing: Spacing::Log, low: SHOWN * largest, high: 2.0 * largest },
+            true => Scale { spacing: Spacing::Log, low: self.least(), high: 2.0 * largest },
             false => Scale::around([0.0], 0.0),
         }
     }

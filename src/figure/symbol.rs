@@ -35,20 +35,20 @@ enum Shape {
 }
 
 /// Distance of the corners of a symbol from its middle [pt].
-const RADIUS: f64 = 2.4;
+pub const RADIUS: f64 = 2.4;
 
 /// The symbols, those that matter least first: the later are drawn over the earlier.
 pub const SYMBOLS: [Symbol; 6] = [
     Symbol {
         name: "unresolved",
-        words: "unresolved",
+        words: "unresolved change",
         shape: Shape::Square,
         colour: FAINT_INK,
         dash: Dash::Dotted,
     },
     Symbol {
         name: "event-sequence",
-        words: "event sequence",
+        words: "change of event order",
         shape: Shape::Cross,
         colour: FAINT_INK,
         dash: Dash::Dotted,

@@ -1,7 +1,7 @@
 //! A gain, as the progression speed, against what it takes, as an energy or the power, and the best of both.
 
 use super::axis::AxisRequest;
-use super::canvas::{Canvas, Drawn};
+use super::canvas::{Canvas, Dash, Drawn, Stroke};
 use super::category;
 use super::cloud::{self, Dot};
 use super::data::Value;
@@ -9,11 +9,11 @@ use super::error::FigureError;
 use super::header::{Entry, Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::optima_table::Table;
-use super::outcome;
+use super::outcome::{self, told_of_missing};
 use super::page::{NO_ROOM, PageRequest, PanelRequest};
 use super::paint::Paint;
 use super::panel::{Panel, Pointing};
-use super::style::{BLUE, FAINT_INK, ONE_COLUMN, UNDECIDED_DOT};
+use super::style::{BLUE, FAINT_INK, INK, ONE_COLUMN, REFERENCE_WIDTH, UNDECIDED_DOT};
 use super::text::Text;
 use super::trade_off_fronts::{Factors, Front};
 use super::trade_off_motions::Motions;
@@ -27,6 +27,9 @@ use crate::tradeoff::{Candidate, GainAndCost, unit_behind};
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
+
+/// The line at the most of the cost that may be spent.
+const BUDGET: Stroke = Stroke { colour: INK, width: REFERENCE_WIDTH, dash: Dash::Usual };
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
@@ -107,16 +110,33 @@ impl TradeOff<'_, '_> {
             let rows = cases.into_iter().map(|case| (self.factors.place(case), self.value(case)));
             panel.record_values(canvas, &format!("{name}{told}"), rows);
         }
+        self.draw_budget(canvas, panel);
         for front in &self.fronts {
             front.draw(canvas, panel, self.factors);
         }
+    }
+
+    /// Draws a line at the most of the cost that may be spent.
+    fn draw_budget(&self, canvas: &mut Canvas, panel: &Panel) {
+        let Some(at) = self.budget() else { return };
+        let [low, high] = [panel.y.scale.low, panel.y.scale.high];
+        panel.curve(canvas, &[(at, low), (at, high)], BUDGET);
+        panel.record(canvas, "budget", [(at, low), (at, high)]);
+    }
+
+    /// The most of the cost that may be spent, in the unit of the figure.
+    fn budget(&self) -> Option<f64> {
+        self.view.drawing.budget.map(|most| most * self.factors.price)
     }
 
     /// The point of a case, of a faint colour if it is not periodic.
     fn dot(&self, case: &Candidate) -> Dot {
         let motions = self.motions();
         let colour = match &self.paint {
-            _ if !motions.is_periodic(case) => FAINT_INK,
+            _ if !motions.is_periodic(case) => match motions.counts(case) {
+                true => FAINT_INK,
+                false => UNDECIDED_DOT,
+            },
             Some(paint) => paint.colour(case.case).unwrap_or(UNDECIDED_DOT),
             None => BLUE,
         };
@@ -163,6 +183,12 @@ impl TradeOff<'_, '_> {
     fn legend(&self) -> Vec<Entry> {
         let motions = self.motions();
         let mut legend: Vec<Entry> = self.fronts.iter().flat_map(Front::legend).collect();
+        if let Some(most) = self.view.drawing.budget {
+            let cost = self.view.quantity(self.of.cost.name());
+            let value = cost.rounded(most).then(Text::plain("\u{a0}")).then(cost.unit());
+            let words = Text::plain("budget ").then(value);
+            legend.push((Mark::Line(BUDGET), words));
+        }
         if self.fronts.iter().any(|front| front.motions.between() > 0) {
             let text = Text::plain(&format!("{BETWEEN} between the cases, by local search"));
             legend.push((Mark::Nothing, text));
@@ -171,14 +197,17 @@ impl TradeOff<'_, '_> {
             legend.push((Mark::Nothing, Text::plain(&format!("{OPEN} not converged"))));
         }
         let [by_means, undecided] = motions.aperiodic();
-        for (count, words) in
-            [(by_means, "not periodic, by their means"), (undecided, "undecided, so on no front")]
-        {
+        for (count, words, colour) in [
+            (by_means, "not periodic, by their means", FAINT_INK),
+            (undecided, "undecided, so on no front", UNDECIDED_DOT),
+        ] {
             if count > 0 {
                 let text = Text::plain(&format!("{words}: {count}"));
-                legend.push((Mark::Disc(FAINT_INK, 1.4), text));
+                legend.push((Mark::Disc(colour, 1.4), text));
             }
         }
+        let not_yet = told_of_missing(motions.not_yet, motions.count);
+        legend.extend(not_yet.map(|words| (Mark::Nothing, Text::plain(&words))));
         if motions.left_out > 0 {
             let text = Text::plain(&format!("without values, left out: {}", motions.left_out));
             legend.push((Mark::Nothing, text));
@@ -191,7 +220,8 @@ impl TradeOff<'_, '_> {
         let best = self.fronts.iter().flat_map(|front| &front.best);
         let fronts = best.flat_map(|best| self.factors.places(&best.front));
         let cases = motions.cases().iter().map(|case| self.factors.place(case));
-        let (prices, gains): (Vec<f64>, Vec<f64>) = cases.chain(fronts).unzip();
+        let (mut prices, gains): (Vec<f64>, Vec<f64>) = cases.chain(fronts).unzip();
+        prices.extend(self.budget());
         let legend = if prices.len() > 1 { self.legend() } else { Vec::new() };
         let panel = PanelRequest {
             x: AxisRequest::around(view.quantity(self.of.cost.name()), &prices, 0.04),

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::error::FigureError;
+use super::outcome::NOT_YET;
 use super::plane::Plane;
 use super::shown::Shown;
 use super::trade_off_fronts::Factors;
@@ -51,6 +52,9 @@ pub fn trade_off_cells<'a>(
     let mut left_out = BTreeMap::new();
     if motions.left_out > 0 {
         left_out.insert("without values".to_owned(), motions.left_out);
+    }
+    if motions.not_yet > 0 {
+        left_out.insert(NOT_YET.to_owned(), motions.not_yet);
     }
     let mut values = [vec![f32::NAN; plane.count()], vec![f32::NAN; plane.count()]];
     let factors = Factors::of(&view, of);

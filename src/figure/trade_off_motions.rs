@@ -22,14 +22,16 @@ pub struct Motions<'a> {
     /// How many of them are cases.
     of_cases: usize,
     /// Number of cases, with or without outputs.
-    count: usize,
+    pub count: usize,
     /// The outcome of each case.
     outcomes: Outcomes<'a>,
     /// What is shown of the motions between the cases, and the conditions of the front; none where nothing was sought.
     sought: Option<&'a KeptFront>,
     refined: &'a [RefinedMotion],
-    /// How many cases have no outputs.
+    /// How many cases have no outputs, those aside that are not computed yet.
     pub left_out: usize,
+    /// How many cases are not computed yet.
+    pub not_yet: usize,
     /// The gain up to which a motion is one without gain, as at rest (SI).
     pub at_rest: f64,
 }
@@ -98,8 +100,20 @@ impl<'a> Motions<'a> {
         let numbered = refined.iter().enumerate();
         all.extend(numbered.map(|(place, motion)| motion.candidate(count + place, of)));
         let outcomes = Outcomes::over(view, free)?;
-        let left_out = count - of_cases;
-        Ok(Motions { of, all, of_cases, count, outcomes, sought, refined, left_out, at_rest })
+        let not_yet = (0..count).filter(|case| outcomes.missing(*case)).count();
+        let left_out = count - of_cases - not_yet;
+        Ok(Motions {
+            of,
+            all,
+            of_cases,
+            count,
+            outcomes,
+            sought,
+            refined,
+            left_out,
+            not_yet,
+            at_rest,
+        })
     }
 
     /// The cases that have both outputs.

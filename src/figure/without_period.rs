@@ -70,6 +70,13 @@ impl WithoutPeriod {
     }
 }
 
+/// The numbers of an output over the axes `free`, in the unit shown; a motion that does not repeat has no period, which files have as 0.
+pub fn numbers(view: &View<'_>, output: &str, free: &[&str]) -> Result<Vec<f64>, FigureError> {
+    let is_period = output == PERIOD.name;
+    let numbers = view.shown(output, free)?.into_iter();
+    Ok(numbers.map(|it| if is_period && it < 1.0 { f64::NAN } else { it }).collect())
+}
+
 /// The mark of an outcome, in the colour that maps give it.
 fn stroke(outcome: &str) -> Stroke {
     Stroke::solid(category::colour_of_outcome(outcome).unwrap_or(INK), CURVE_WIDTH)

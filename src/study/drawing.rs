@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::appearance::Settings;
+use super::colour::AttractorColours;
 use super::grid::Direction;
 use crate::description::{Description, Output, Signal, SignalKind};
 
@@ -63,6 +64,8 @@ pub struct Keys {
     pub panels: bool,
     /// Whether its points can be coloured by what `colour_by` names.
     pub coloured: bool,
+    /// Whether it shows attractors by their colours.
+    pub attractors: bool,
     /// What it marks and `hide` can leave out.
     pub marks: &'static [&'static str],
 }
@@ -76,6 +79,7 @@ const AXES: Keys = Keys {
     between: false,
     panels: false,
     coloured: false,
+    attractors: false,
     marks: &[],
 };
 /// What tells the colours of points beside outputs.
@@ -113,6 +117,7 @@ kinds! {
         others: &[Shows::Coordinates],
         most: 2,
         panels: true,
+        attractors: true,
         marks: &["stroboscopic", "impacts", "contact"],
         ..AXES
     };
@@ -120,19 +125,19 @@ kinds! {
     Spectrum "spectrum" Keys { others: &[Shows::Signals], most: ANY, panels: true, marks: &["drive"], ..AXES };
     /// A section coordinate over an axis, with the progression speed below it.
     Bifurcation "bifurcation"
-        Keys { outputs: true, others: &[Shows::Verdicts, Shows::Points], most: ANY, continued: true, coloured: true, marks: &["coexistence", "events", "special-points"], ..AXES };
+        Keys { outputs: true, others: &[Shows::Verdicts, Shows::Points], most: ANY, continued: true, coloured: true, attractors: true, marks: &["coexistence", "events", "special-points"], ..AXES };
     /// One output over two axes.
-    Map "map" Keys { outputs: true, others: &[Shows::Verdicts], most: 1, panels: true, ..AXES };
+    Map "map" Keys { outputs: true, others: &[Shows::Verdicts], most: 1, panels: true, attractors: true, ..AXES };
     /// Which attractor each start leads to, over two coordinates of the start.
-    Basin "basin" Keys { marks: &["section-points", "saddles", "manifolds", "impact-surface"], ..AXES };
+    Basin "basin" Keys { attractors: true, marks: &["section-points", "saddles", "manifolds", "impact-surface"], ..AXES };
     /// For how many cycles each start is followed until its attractor is decided, over two coordinates of the start.
-    Settling "settling" Keys { marks: &["section-points"], ..AXES };
+    Settling "settling" Keys { attractors: true, marks: &["section-points"], ..AXES };
     /// Shares of the starts that lead to each attractor, along a parameter, and the room of each basin.
-    Shares "shares" AXES;
+    Shares "shares" Keys { attractors: true, ..AXES };
     /// The stroboscopic section points of one case, and its impacts.
-    Section "section" Keys { others: &[Shows::Section], most: 2, ..AXES };
+    Section "section" Keys { others: &[Shows::Section], most: 2, attractors: true, ..AXES };
     /// A gain against a cost: the progression speed against an energy per cycle, or one output against another.
-    TradeOff "trade-off" Keys { outputs: true, most: 2, between: true, coloured: true, marks: &["fronts", "optima"], ..AXES };
+    TradeOff "trade-off" Keys { outputs: true, most: 2, between: true, coloured: true, attractors: true, marks: &["fronts", "optima"], ..AXES };
     /// The gain of the motion with the most of it in each cell over two axes, and beside it what it costs, with the fronts on both.
     TradeOffMaps "trade-off-maps" Keys { outputs: true, most: 2, between: true, marks: &["fronts", "optima"], ..AXES };
     /// Special points of branches as curves in two parameters.
@@ -152,6 +157,18 @@ impl DrawingKind {
     /// Its name.
     pub fn name(self) -> &'static str {
         DrawingKind::NAMES[self as usize].0
+    }
+
+    /// What a trade-off that names these outputs shows as its cost: the first of them, or the work of a cycle of a model that has
+    /// a gain and a cost of its own; none of other kinds.
+    pub fn cost(self, of: &[String], model: &'static Description) -> Option<Output> {
+        if self != DrawingKind::TradeOff {
+            return None;
+        }
+        match of.first() {
+            Some(name) => model.output(name),
+            None => model.has_trade_off().then(|| model.work()),
+        }
     }
 
     /// Whether a figure of this kind that names so many outputs has what it shows: a gain and a cost, of a trade-off, which both are
@@ -290,6 +307,10 @@ pub struct Drawing {
     /// What the colours of points tell: an output, or `attractor`, `period`, `outcome`, `direction`; the kind of figure has its
     /// own default.
     pub colour_by: Option<String>,
+    /// The colours of attractors by their numbers; the others have those that figures choose.
+    pub colours: AttractorColours,
+    /// The most of the cost that may be spent, where a trade-off has a line (SI).
+    pub budget: Option<f64>,
     /// Whether a map shows the curves of special points in its two parameters, too.
     pub curves: bool,
     /// Whether a bifurcation diagram shows the branches, too.
@@ -331,6 +352,8 @@ impl Drawing {
             cycles: None,
             sweep: None,
             colour_by: None,
+            colours: AttractorColours::new(),
+            budget: None,
             curves: false,
             branches: true,
             width_mm: None,

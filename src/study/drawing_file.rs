@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::appearance::{Setting, SettingText, Settings, dimension_of};
+use super::colour::{AttractorColours, Colour, attractor_number};
 use super::document::{Entry, Table};
 use super::drawing::{COLOURED_BY, Size, Sweep, Texts, check_text};
 use super::held_file::{names_along, older_name, read_at};
 use super::{Axis, CaseSet, Drawing, DrawingKind, Refine};
 use crate::description::{Output, Parameter};
-use crate::quantity::{Dimension, parse_quantity};
+use crate::quantity::{Allowed, Dimension, parse_quantity};
 
 /// The unit of widths [m].
 const MILLIMETRE: f64 = 1e-3;
@@ -24,10 +25,16 @@ pub(super) fn read_drawings(
     outputs: &[Output],
     refine: Option<&Refine>,
 ) -> Vec<Drawing> {
+    let of_all = top.table("colours").map(|it| read_colours(&it)).unwrap_or_default();
     let entries = top.entry("figures").map(|entry| entry.list()).unwrap_or_default();
     let mut drawings: Vec<Drawing> = Vec::new();
     for table in entries.iter().filter_map(Entry::table) {
-        let drawing = read_drawing(&table, case_set.axes(), varied_beside, outputs);
+        let mut drawing = read_drawing(&table, case_set.axes(), varied_beside, outputs);
+        if drawing.kind.keys().attractors {
+            of_all.iter().for_each(|(number, colour)| {
+                drawing.colours.entry(*number).or_insert(*colour);
+            });
+        }
         if let (CaseSet::Draws(_), Some(kind)) = (case_set, table.entry("kind")) {
             refuse_without_grid(&kind, drawing.kind);
         }
@@ -81,6 +88,7 @@ fn read_drawing(
 ) -> Drawing {
     let kind = read_kind(table);
     let names = abscissae(kind, axes, varied_beside);
+    let of = read_of(table, kind, outputs);
     let (at, panels) = table.table("at").map(|at| read_at(&at, axes, kind)).unwrap_or_default();
     Drawing {
         name: table.entry("name").and_then(|entry| read_name(&entry)).unwrap_or_default(),
@@ -88,12 +96,14 @@ fn read_drawing(
         title: table.entry("title").and_then(|entry| entry.text()).map(str::to_owned),
         x: read_axis(table, "x", &names),
         y: read_axis(table, "y", &names),
-        of: read_of(table, kind, outputs),
+        budget: table.entry("budget").and_then(|it| read_budget(&it, kind, &of, table)),
+        of,
         at,
         panels,
         cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
         sweep: table.entry("sweep").and_then(|it| read_sweep(&it, kind)),
         colour_by: table.entry("colour_by").and_then(|it| read_colour_by(&it, kind, axes, outputs)),
+        colours: read_own_colours(table, kind),
         curves: table.entry("curves").is_some_and(|entry| read_curves(&entry, kind)),
         branches: table.entry("branches").and_then(|entry| entry.truth()).unwrap_or(true),
         width_mm: read_size(table, "width", Size::Width),
@@ -223,6 +233,46 @@ fn read_of(table: &Table<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output])
         kind.can_show(table.model(), outputs).into_iter().map(|name| (name, name)).collect();
     let known = list.iter().filter_map(|it| it.one_of("output for this kind of figure", &names));
     known.map(str::to_owned).collect()
+}
+
+/// The colours of attractors, each behind the number of one.
+fn read_colours(table: &Table<'_, '_>) -> AttractorColours {
+    let mut colours = AttractorColours::new();
+    for (key, entry) in table.entries() {
+        let number = attractor_number(&key).map_err(|fault| entry.fault(fault));
+        let Some(text) = entry.text() else { continue };
+        let colour = Colour::parse(text).map_err(|fault| entry.fault(fault));
+        if let (Ok(number), Ok(colour)) = (number, colour) {
+            colours.insert(number, colour);
+        }
+    }
+    colours
+}
+
+/// The colours of attractors of one figure, of a kind that shows them.
+fn read_own_colours(table: &Table<'_, '_>, kind: Option<DrawingKind>) -> AttractorColours {
+    let Some(entry) = table.entry("colours") else { return AttractorColours::new() };
+    if let Some(kind) = kind.filter(|kind| !kind.keys().attractors) {
+        entry.fault(format!("does not go with a figure of the kind {}", kind.name()));
+    }
+    entry.table().map(|it| read_colours(&it)).unwrap_or_default()
+}
+
+/// The most of the cost that may be spent.
+fn read_budget(
+    entry: &Entry<'_, '_>,
+    kind: Option<DrawingKind>,
+    of: &[String],
+    table: &Table<'_, '_>,
+) -> Option<f64> {
+    let kind = kind?;
+    if kind != DrawingKind::TradeOff {
+        entry
+            .fault(format!("goes with a trade-off, not with a figure of the kind {}", kind.name()));
+        return None;
+    }
+    let cost = kind.cost(of, table.model())?;
+    entry.allowed_quantity(cost.quantity().dimension, Allowed::Finite)
 }
 
 /// Whether curves of special points lie over a map.

@@ -31,6 +31,15 @@ pub(super) fn write_drawing(
     if let Some(name) = &drawing.colour_by {
         document.put("colour_by", text(name));
     }
+    if !drawing.colours.is_empty() {
+        let colours = drawing.colours.iter();
+        let each = colours.map(|(number, colour)| (number.to_string(), text(&colour.text())));
+        document.put("colours", inline(each));
+    }
+    if let Some(budget) = drawing.budget {
+        let cost = drawing.kind.cost(&drawing.of, model).map(|it| it.quantity().dimension);
+        document.put("budget", quantity(budget, cost.unwrap_or(Dimension::Number)));
+    }
     if drawing.curves {
         document.put("curves", drawing.curves);
     }

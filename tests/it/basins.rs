@@ -117,7 +117,10 @@ fn the_file_has_the_table_along_its_own_dimension() {
     }
     let svg = fs::read_to_string(folder.path("results/study/basin.svg")).expect("a figure");
     // What the legend says stands in the description, too; a disc for the point of each orbit, a dashed impact surface.
-    let told = ["attractor over start_r, start_y1: period 1, 0 mm/s, ", "; period 1, 67.0 mm/s, "];
+    let told = [
+        "attractor over start_r, start_y1: attractor 0: period 1, 0 mm/s, ",
+        "; attractor 1: period 1, 67.0 mm/s, ",
+    ];
     for words in told.into_iter().chain(["#0072b2", "#d55e00", "stroke-dasharray"]) {
         assert!(svg.contains(words), "{words}");
     }

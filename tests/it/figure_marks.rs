@@ -20,6 +20,8 @@ fn what_has_no_period_has_a_place_of_its_own_among_periods() {
         assert!(words.contains(&format!("{kind}: no period")), "{words}");
         assert!(csv.contains(&format!("1,\"{kind}, no period\",{omega},,\n")), "{csv}");
     }
+    // No period is 0.
+    assert!(!csv.contains(",0,"), "{csv}");
     // Beside other outputs nothing is marked.
     let words = labels(&drawn(&speeds([0.0, 1.0, 2.0, 3.0, 4.0, 5.0]), &diagram(&[])).0).concat();
     assert!(!words.contains("no period"), "{words}");

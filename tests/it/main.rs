@@ -39,6 +39,7 @@ mod explore_refusals;
 mod explore_requests;
 mod explorer;
 mod figure;
+mod figure_colours;
 mod figure_contents;
 mod figure_marks;
 mod figure_requests;

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use capsulemap::quantity::Allowed;
 use capsulemap::study::appearance::NATURAL;
 use capsulemap::study::{
-    Axis, COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Drawing,
-    DrawingKind, QuantitySettings, ScaleChoice, Settings, Study, Sweep, Texts,
+    AttractorColours, Axis, COLOURED_BY, CaseSet, Colour, ColourMap, Colouring, Continuation,
+    Coordinate, Drawing, DrawingKind, QuantitySettings, ScaleChoice, Settings, Study, Sweep, Texts,
 };
 
 use super::random_numbers::Random;
@@ -58,6 +58,8 @@ impl Random {
         if is_plane && of.len() == 1 {
             of.clear();
         }
+        let has_cost = kind.cost(&of, study.base.model()).is_some();
+        let budget = (has_cost && self.is_so()).then(|| self.number(Allowed::Finite));
         let held = self.some(study.axes());
         let at: BTreeMap<String, f64> = held.iter().map(|axis| self.held_at(axis)).collect();
         let from = self.uniform(0.0, 3.0);
@@ -72,6 +74,8 @@ impl Random {
             panels: Vec::new(),
             cycles: self.is_so().then_some([from, from + 0.5]),
             sweep: self.is_so().then(|| self.one(&[Sweep::Upward, Sweep::Downward])),
+            colours: self.colours(kind),
+            budget,
             colour_by: (kind.keys().coloured && self.is_so())
                 .then(|| self.one(&COLOURED_BY).to_owned()),
             curves: kind == DrawingKind::Map && self.is_so(),
@@ -87,6 +91,14 @@ impl Random {
             svg_text: self.is_so(),
             settings: self.settings(),
         }
+    }
+
+    /// Colours of attractors in a figure of a kind that shows these.
+    fn colours(&mut self, kind: DrawingKind) -> AttractorColours {
+        let count = if kind.keys().attractors { self.below(4) } else { 0 };
+        let byte = |it: &mut Random| it.below(256) as u8;
+        let colour = |it: &mut Random| Colour([byte(it), byte(it), byte(it)]);
+        (0..count).map(|_| (self.below(1000) as u32, colour(self))).collect()
     }
 
     fn texts(&mut self) -> Texts {
