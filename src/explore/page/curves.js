@@ -34,13 +34,13 @@ function shape(words) {
   return found ? found[1] : (drawn, [x, y], r) => drawn.rect(x - r * 0.8, y - r * 0.8, 1.6 * r, 1.6 * r);
 }
 
-/** Draws a special point, by its words and colour. */
-export function point(drawn, at, it, radius = 5) {
+/** Draws a special point, by its words, in its own colours or in others. */
+export function point(drawn, at, it, radius = 5, inside = ink(it), around = rim(it)) {
   drawn.beginPath();
   shape(it.words)(drawn, at, radius);
-  drawn.fillStyle = ink(it);
+  drawn.fillStyle = inside;
   drawn.fill();
-  [drawn.lineWidth, drawn.strokeStyle] = [1.2, rim(it)];
+  [drawn.lineWidth, drawn.strokeStyle] = [1.2, around];
   drawn.stroke();
 }
 
@@ -55,9 +55,12 @@ function curve(drawn, places, it) {
 // The sequence of events changes at many points: other symbols lie over those, and folds and period doublings over all.
 const order = ({ words }) => (/fold|period doubling/.test(words) ? 2 : /event/.test(words) ? 0 : 1);
 
+/** Special points in the order in which they are drawn. */
+export const ordered = (points) => [...points].sort((a, b) => order(a) - order(b));
+
 /** What draws curves and points over a map: `to` takes places in the units shown, and `put` draws at one that is seen. */
 export const layer = ({ lines, points }) => {
-  const sorted = [...points].sort((a, b) => order(a) - order(b));
+  const sorted = ordered(points);
   return {
     lines: (drawn, to) => lines.forEach((it) => curve(drawn, it.points.map(([x, y]) => to(x, y)), it)),
     points: (drawn, put) => sorted.forEach((it) => put(...it.at, (_, at) => point(drawn, at, it))),

@@ -2,7 +2,7 @@
 
 import * as curves from "./curves.js";
 import { by } from "./element.js";
-import { cross, cursor, dot, entry, front, letter, line, rectangle, sectionPoint } from "./marks.js";
+import { cross, cursor, dot, entry, front, letter, line, manifold, rectangle, saddle, sectionPoint } from "./marks.js";
 import { chosen, onMap, page, pins } from "./shown.js";
 
 /** Tells what the marks on the map mean, and what is left out. */
@@ -14,7 +14,7 @@ export function legend() {
   for (const direction of ["forward", "backward"]) {
     if (marks.fronts[direction]?.some(isSeen)) made.push(entry(`front, ${direction}`, (drawn, place) => dot(drawn, place, front(direction))));
   }
-  if (marks.attractors.some(({ at }) => isSeen(at))) made.push(entry("section point of an attractor, in its colour", (drawn, place) => sectionPoint(drawn, place, "#888888")));
+  made.push(...overBasins(map));
   if (map.chosen && map.isSeen(map.chosen)) made.push(entry("chosen case", (drawn, place) => cross(drawn, place)));
   if (map.hasCursor() && map.isSeen(map.mark)) made.push(entry("mark of the keyboard", (drawn, place) => cursor(drawn, place)));
   marks.pins.filter(({ point }) => isSeen(point)).forEach(({ name }) => made.push(entry(`pinned ${name}`, (drawn, place) => letter(drawn, place, name))));
@@ -23,6 +23,17 @@ export function legend() {
   by("map-legend").replaceChildren(...made);
   by("map-legend").hidden = !made.length;
   note();
+}
+
+// What lies over basins.
+function overBasins(map) {
+  const { attractors, saddles, manifolds } = map.marks, made = [], isSeen = ({ at }) => map.isSeen(map.shown(...at));
+  const is = manifolds?.projected ? ", projected onto the plane" : "", stroke = (isStable) => (drawn, [x, y]) => manifold(drawn, [[x - 13, y], [x + 13, y]], isStable);
+  if (attractors.some(isSeen)) made.push(entry(`section point of an attractor, in its colour${is}`, (drawn, place) => sectionPoint(drawn, place, "#888888")));
+  if (saddles.some(isSeen)) made.push(entry(`saddle on the boundary${is}`, saddle));
+  if (manifolds?.stable.length) made.push(entry("boundary as a curve", stroke(true)));
+  if (manifolds?.unstable.length) made.push(entry(`unstable manifold of a saddle${is}`, stroke(false)));
+  return made;
 }
 
 // The sides of a rectangle between two of its corners.

@@ -2,7 +2,7 @@
 
 import { hatch } from "./cells.js";
 import { parted } from "./element.js";
-import { cross, cursor, dot, dots, front, letter, line, rectangle, sectionPoint } from "./marks.js";
+import { cross, cursor, dot, dots, front, letter, line, manifold, rectangle, saddle, sectionPoint } from "./marks.js";
 import { colours, room, upward } from "./plot.js";
 import { Plane } from "./plane.js";
 import { numbers, share } from "./scale.js";
@@ -14,7 +14,7 @@ const SWATCH = 12;
 export class CellMap extends Plane {
   constructor(canvas, on) {
     super(canvas, on);
-    this.marks = { pins: [], line: null, rectangle: null, fronts: {}, curves: null, spot: null, attractors: [] };
+    this.marks = { pins: [], line: null, rectangle: null, fronts: {}, curves: null, spot: null, attractors: [], saddles: [], manifolds: null };
   }
 
   /** Shows other cells; the mark and what is seen stay if the axes are the same. */
@@ -61,6 +61,7 @@ export class CellMap extends Plane {
   over(drawn, to) {
     const { marks } = this, place = (point) => to(this.shares(point));
     marks.curves?.lines(drawn, (x, y) => to(this.shown(x, y)));
+    for (const kind of ["unstable", "stable"]) for (const { points } of marks.manifolds?.[kind] ?? []) manifold(drawn, points.map((it) => to(this.shown(...it))), kind === "stable");
     if (marks.rectangle) rectangle(drawn, marks.rectangle.map(place));
     // The line whose end is moved is drawn where it would be.
     if (marks.line && this.gesture?.grip === undefined) line(drawn, marks.line.map(place));
@@ -69,11 +70,23 @@ export class CellMap extends Plane {
     ({ line, rectangle })[this.gesture.kind](drawn, this.gesture.grip === 0 ? both.reverse() : both);
   }
 
+  /** The section point of an attractor or of a saddle under the pointer of an event, if it is so near. */
+  met({ clientX, clientY }, near) {
+    const box = this.canvas.getBoundingClientRect(), area = this.area(), { attractors, saddles } = this.marks;
+    let [best, away] = [null, near];
+    for (const [kind, all] of [["attractor", attractors], ["saddle", saddles]]) for (const it of all) {
+      const [x, y] = this.place(this.shown(...it.at), area), far = Math.hypot(x - clientX + box.left, y - clientY + box.top);
+      if (far <= away) [best, away] = [{ ...it, kind }, far];
+    }
+    return best;
+  }
+
   // Marks at the edge of the map are not cut off.
   above(drawn, put) {
     const { marks } = this, at = (point, mark) => put(this.shares(point), mark);
     marks.curves?.points(drawn, (x, y, mark) => put(this.shown(x, y), mark));
-    marks.attractors.forEach(({ at: place, colour }) => at(place, (drawn, to) => sectionPoint(drawn, to, `rgb(${colour})`)));
+    marks.attractors.forEach(({ at: place, colour }) => put(this.shown(...place), (drawn, to) => sectionPoint(drawn, to, `rgb(${colour})`)));
+    marks.saddles.forEach(({ at: place }) => put(this.shown(...place), saddle));
     this.drawFronts(drawn, at);
     marks.pins.forEach(({ point, name }) => at(point, (drawn, place) => letter(drawn, place, name)));
     if (marks.spot) at(marks.spot, (drawn, place) => dot(drawn, place, colours().mark, 5));

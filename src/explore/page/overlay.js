@@ -3,6 +3,7 @@
 import * as ask from "./ask.js";
 import * as curves from "./curves.js";
 import * as view from "./view.js";
+import { isBasin } from "./attractors.js";
 import { selection, told, within } from "./brush.js";
 import { by, said, say } from "./element.js";
 import { legend } from "./legend.js";
@@ -48,6 +49,7 @@ export function select() {
 
 /** Shows special points and branches over the map, if they are wanted. */
 export async function showCurves(signal) {
+  if (isBasin(page.file)) return;
   const isOn = view.text("curves") === "1" && page.file.has_curves;
   by("curves-switch").checked = isOn;
   by("curves-place").hidden = !isOn;

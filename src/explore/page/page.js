@@ -4,6 +4,7 @@ import * as ask from "./ask.js";
 import * as attractors from "./attractors.js";
 import * as busy from "./busy.js";
 import * as colouring from "./colouring.js";
+import * as diagram from "./diagram.js";
 import * as divider from "./divider.js";
 import * as tabs from "./tabs.js";
 import * as view from "./view.js";
@@ -45,7 +46,7 @@ async function showMap() {
   page.raw = data;
   paint();
   task.end();
-  attractors.find(data, chooseOnMap, signal).catch(fault);
+  attractors.find(data, choose, signal).catch(fault);
   const now = performance.now();
   Object.assign(by("map").dataset, { milliseconds: (now - begun).toFixed(1), painted: (now - came).toFixed(1) });
   by("map").setAttribute("aria-label", `Map of ${data.told} over ${data.x.label} and ${data.y.label}, ${data.x.values.length} by ${data.y.values.length} cases`);
@@ -121,7 +122,7 @@ function showLine() {
   if (axes().length) fillLine(both?.map((it) => axes().map((axis) => it[axis.name])));
   if (!both) return line.stop();
   const [from, to] = both, start = view.text("start") || (file.inherits ? "inherit" : "afresh");
-  const along = map ? longer(map.data, from, to) : file.axes[0];
+  const along = map ? longer(map.data, from, to) : axes()[0];
   const fixed = Object.entries(from).filter(([name, value]) => to[name] === value);
   const where = page.motions.words({ ...(map ? page.choices.held() : {}), ...Object.fromEntries(fixed) });
   by("line-heading").replaceChildren(...marked(`Bifurcation diagram${map ? " along the line" : ""}${where ? `: ${where}` : ""}`));
@@ -156,6 +157,7 @@ async function mapChanged(has) {
   if (isOther) { page.choices.draw(); notice(); await showMap(); }
   else if (has("trade", "curves")) { await Promise.all([has("trade") && showTradeOff(), has("curves") && showCurves()]); mark(); handMaps(); }
   else if (has("brush")) select();
+  if (has("bare")) attractors.over();
   if (has(...colouring.KEYS) && !isOther) { paint(); handMaps(); }
   if (has("at", "line", "pins") && !isOther) mark();
 }
@@ -170,6 +172,7 @@ async function changed(keys) {
   const views = has("at") ? [showMotion()] : [];
   try {
     if (page.map) await mapChanged(has);
+    if (page.diagram && has(...diagram.KEYS)) views.push(page.diagram.show());
     if (has("pins")) views.push(showPins());
     if (has("same")) page.motions.scale(by("same-switch").checked = view.text("same") === "1");
     if (has("line", "start", ...page.choices.keys())) views.push(showLine());
@@ -195,8 +198,6 @@ function build(file) {
   page.line = new Line(by("line-place"), {
     choose, start: (start) => view.step({ start }), spot: (it) => page.map?.set({ spot: it && axes().map((axis) => it[axis.name]) }),
     turn: () => view.step({ line: view.text("line").split("~").reverse().join("~") }),
-    // The branches that the file has are followed beside its own diagram.
-    finished: () => { if (!page.map && file.has_curves) page.line.branches.follow(); },
   });
   page.tradeOff = new TradeOff(by("trade-off-place"), prices(file), {
     price: (trade) => view.step({ trade, brush: selection()?.plane === "map" ? view.text("brush") : null }),
@@ -243,6 +244,11 @@ async function open(file) {
     nameSaving();
     if (prices(file).length) tabs.turned("trade-off", () => turnToTradeOff(prices(file)));
     else tabs.remove("trade-off");
+  }
+  if (file.diagrams.length) {
+    page.diagram = new diagram.Diagram(by("whole-place"), file, choose);
+    await page.diagram.show().catch(fault);
+    document.body.dataset.ready = "true";
   }
   // Draws have no axes, and are shown over what was drawn.
   if (file.draws?.length) new Scatter(by("whole-place"), { choose }).show().then(() => { document.body.dataset.ready = "true"; }, fault);

@@ -11,12 +11,15 @@ mod described;
 mod draws;
 mod explored;
 mod followed;
+mod limits;
 mod line;
 mod map;
 mod motion;
 mod private_folder;
 mod saved;
 mod source;
+mod stored_basin;
+mod stored_diagram;
 mod written;
 
 use std::io;
@@ -154,6 +157,8 @@ fn router(shared: Shared) -> Router {
         .route("/api/trade-off", of_file(readings, map::trade_off))
         .route("/api/motion", of_file(motions, |it, asked| Ok(json(&motion::motion(it, asked)?))))
         .route("/api/draws", of_file(readings, |it, asked| Ok(json(&draws::draws(it, asked)?))))
+        .route("/api/diagram", of_file(readings, |it, asked| Ok(json(&stored_diagram::diagram(it, asked)?))))
+        .route("/api/stored-basin", of_file(readings, |it, asked| Ok(json(&stored_basin::stored_basin(it, asked)?))))
         .route("/api/figure", get(figure))
         .route("/api/line", get(line))
         .route("/api/branches", get(branches))
