@@ -2,10 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use super::basin_colours::colour;
 use super::coloured::label_colour;
 use super::error::FigureError;
 use super::known_attractors::KnownAttractors;
 use super::manifolds::Curves;
+use super::over_map::channels;
 use super::plane::Plane;
 use super::section_points::{in_plane, is_at_starts, of_attractors};
 use super::shown::Shown;
@@ -41,8 +43,10 @@ pub struct OverBasin {
 /// An attractor of a file of basins.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BasinAttractor {
-    /// The colour of its basin.
+    /// Its colour.
     pub colour: [u8; 3],
+    /// The colour of its basin.
+    pub basin: [u8; 3],
     /// Its period, or the name of its kind.
     pub motion: String,
     /// The first case that leads to it.
@@ -151,7 +155,8 @@ fn attractors(view: &View<'_>, plane: &Plane<'_>) -> Vec<BasinAttractor> {
     });
     let outputs: Vec<(Output, Rows)> = outputs.collect();
     let all = (0..count).map(|number| BasinAttractor {
-        colour: label_colour(u32::try_from(number).ok()),
+        colour: channels(colour(number)),
+        basin: label_colour(u32::try_from(number).ok()),
         motion: known.motion(number),
         case: whole(case.one(number)),
         outputs: outputs.iter().map(|(output, rows)| (*output, rows.one(number))).collect(),

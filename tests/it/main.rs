@@ -37,6 +37,7 @@ mod explore_page;
 mod explore_private;
 mod explore_refusals;
 mod explore_requests;
+mod explore_stored;
 mod explorer;
 mod figure;
 mod figure_contents;

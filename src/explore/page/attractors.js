@@ -6,7 +6,7 @@ import * as view from "./view.js";
 import { button, by, element, sentence, table } from "./element.js";
 import { legend } from "./legend.js";
 import { model, shown } from "./model.js";
-import { multipliers } from "./multipliers.js";
+import { multipliers } from "./numbers.js";
 import { page } from "./shown.js";
 import { short } from "./ticks.js";
 
@@ -24,12 +24,23 @@ export const isShown = () => view.text("bare") !== "1";
 /** What the file tells of the plane that is shown last. */
 let told = null;
 
-/** Shows what the file tells of the basins of the map as it is now; `choose` shows the motion of a case by its coordinates. */
-export async function find(data, choose, signal) {
-  if (!isBasin(page.file)) return;
-  const { x, y } = data;
-  const now = await ask.object("/api/stored-basin", { x: x.name, y: y.name, ...page.choices.held() }, signal);
+/** Asks what the file tells of the basins of the map; the map itself, in the colours of basins where it shows them. */
+export async function tinted(asked, signal) {
+  if (!isBasin(page.file)) return ask.map(asked, signal);
+  const { x, y } = asked;
+  const [data, now] = await Promise.all([ask.map(asked, signal), ask.object("/api/stored-basin", { x, y, ...page.choices.held() }, signal)]);
   told = now;
+  if (asked.of !== "attractor" || !data.key.kinds) return data;
+  // A basin has a paler colour than its attractor, so that this stands out from it.
+  const paler = new Map(told.attractors.map((it) => [String(it.colour), it.basin]));
+  data.key.kinds = data.key.kinds.map(([name, colour]) => [name, paler.get(String(colour)) ?? colour]);
+  data.values.forEach((kind, cell) => { const colour = data.key.kinds[kind]?.[1]; if (colour) data.colours.set(colour, 4 * cell); });
+  return data;
+}
+
+/** Lays it over the basins and tells it in tables; `choose` shows the motion of a case by its coordinates. */
+export function show(choose) {
+  if (!told) return;
   tables(choose);
   over();
 }
@@ -67,7 +78,7 @@ function tables(choose) {
   if (attractors.length) {
     const show = (it, i) => (it.case === null ? "–" : button("Show", () => choose({ ...coordinates(it.case), ...page.choices.from() }), { ariaLabel: `Show the motion of attractor ${i + 1}` }));
     const rows = attractors.map((it, i) => [swatched(it.colour, String(i + 1)), show(it, i), motion(it.motion), share(it.share), ...it.outputs.map((value, at) => shown(value, outputs[at])), multipliers(it.multipliers)]);
-    made.push(element("h2", { textContent: "Attractors of the file" }), scrolled("Attractors of the file", ["attractor", "its motion", "what it is", "share of starts", ...outputs.map((it) => it.label), "multipliers"], rows));
+    made.push(element("h2", { textContent: "Attractors of the file" }), scrolled("Attractors of the file", ["attractor", "its motion", "motion", "share of starts", ...outputs.map((it) => it.label), "multipliers"], rows));
   }
   if (saddles.length) {
     const rows = saddles.map((it, i) => [String(i + 1), it.between.map((one) => one + 1).join(" and "), String(it.period), multipliers(it.multipliers), short(it.residual, 2)]);
@@ -92,7 +103,7 @@ export function beside(event) {
     tip.show(event, { head: `saddle ${found.number + 1}`, colour: null, rows: [["between the basins of", it.between.map((one) => one + 1).join(" and ")], ["period", String(it.period)], ["multipliers", multipliers(it.multipliers)], ...at] });
   } else {
     const it = told.attractors[found.number], main = told.outputs.findIndex((one) => one.name === model.main_output.name);
-    const rows = [["what it is", motion(it.motion)], ["share of starts", share(it.share)], ...(main < 0 ? [] : [tip.pair(told.outputs[main].label, shown(it.outputs[main], told.outputs[main]))]), ["multipliers", multipliers(it.multipliers)], ...at];
+    const rows = [["motion", motion(it.motion)], ["share of starts", share(it.share)], ...(main < 0 ? [] : [tip.pair(told.outputs[main].label, shown(it.outputs[main], told.outputs[main]))]), ["multipliers", multipliers(it.multipliers)], ...at];
     tip.show(event, { head: `attractor ${found.number + 1}`, colour: `rgb(${it.colour})`, rows });
   }
   return true;

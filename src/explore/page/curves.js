@@ -1,7 +1,7 @@
 // Special points and branches over the map, with their legend and tables.
 
 import { element, folded } from "./element.js";
-import { entry, rimmed } from "./marks.js";
+import { rimmed } from "./marks.js";
 import { short } from "./ticks.js";
 
 // The colour of a curve or a point; black where it has none of its own.
@@ -76,8 +76,8 @@ export function seen({ lines, points }, map) {
 // One of each kind, by its words, colour and dashes.
 const kinds = (all) => [...new Map(all.map((it) => [JSON.stringify([it.words, it.colour, it.dash]), it])).values()];
 
-/** The entries of the legend of the map. */
-export function entries({ lines, points }) {
+/** The entries of the legend of the map, as `entry` makes them. */
+export function entries({ lines, points }, entry) {
   return [
     ...kinds(lines).map((it) => entry(it.words, (drawn, [x, y]) => curve(drawn, [[x - 12, y], [x + 12, y]], it))),
     ...kinds(points).map((it) => entry(it.words, (drawn, at) => point(drawn, at, it))),

@@ -5,10 +5,10 @@ import * as busy from "./busy.js";
 import * as curves from "./curves.js";
 import * as tip from "./tip.js";
 import * as view from "./view.js";
-import { button, by, element, folded, labelled, parted, say, said, select, sentence, table } from "./element.js";
+import { button, by, element, folded, labelled, marked, parted, say, said, select, sentence, table } from "./element.js";
 import { handOver, quoted, saveButtons } from "./keep.js";
 import { entry } from "./marks.js";
-import { multipliers } from "./multipliers.js";
+import { multipliers } from "./numbers.js";
 import { colours, context, frame, redrawn, share, within } from "./plot.js";
 import { range, result, short } from "./ticks.js";
 
@@ -28,8 +28,15 @@ const light = ([r, g, b]) => 0.3 * r + 0.59 * g + 0.11 * b;
 const isDark = () => light(colours().paper.match(/[\da-f]{2}/gi).map((it) => parseInt(it, 16))) < 128;
 // A colour of the figures, which are on white: what is nearly black there has the colour of the text here.
 const shade = (rgb) => (isDark() && light(rgb) < 60 ? colours().ink : `rgb(${rgb})`);
-// A special point in the colours of the text and the paper, as points have colours of their own.
-const symbol = (drawn, at, words, radius = 4.5) => curves.point(drawn, at, { words }, radius, colours().ink, colours().paper);
+// A special point in the colours of the text and the paper, as points have colours of their own; the shapes are those of the figure.
+function symbol(drawn, [x, y], words, radius = 4.5) {
+  const { ink, paper } = colours(), isHollow = /grazing|unresolved/.test(words), r = 0.7 * radius;
+  if (words !== "event sequence") return curves.point(drawn, [x, y], { words }, radius, ...(isHollow ? [paper, ink] : [ink, paper]));
+  for (const [line, tone] of [[3.5, paper], [1.4, ink]]) {
+    [drawn.lineWidth, drawn.strokeStyle] = [line, tone];
+    drawn.beginPath(); drawn.moveTo(x - r, y - r); drawn.lineTo(x + r, y + r); drawn.moveTo(x - r, y + r); drawn.lineTo(x + r, y - r); drawn.stroke();
+  }
+}
 
 /** The diagram in its place; `choose` shows the motion of a case by its coordinates. */
 export class Diagram {
@@ -61,7 +68,8 @@ export class Diagram {
     const kinds = outputs.filter(({ name }) => name !== "attractor").map((it) => [it.name, parted(it.label)[0].toLowerCase()]);
     this.by = select("by", [["", "as in the figure"], ...sweeps, ...kinds], "", step("by"));
     this.panel = select("panel", [["", "all"]], "", step("panel"));
-    const fields = outputs.length ? [labelled("Colours", this.by)] : [];
+    this.colouring = labelled("Colours", this.by);
+    const fields = [this.colouring];
     if (diagrams.length > 1) fields.unshift(labelled("Over", this.over = select("over", diagrams.map((it) => [it.name, parted(it.label)[0]]), diagrams[0].name, step("over"))));
     this.tools.append(...fields, labelled("Panels", this.panel), this.whole);
   }
@@ -114,11 +122,12 @@ export class Diagram {
     });
     this.columns = [...columns].sort(([a], [b]) => a - b).map(([value, cases]) => ({ x: value * data.x.factor, cases }));
     this.panel.replaceChildren(...[["", "all"], ...data.panels.map((it) => [it.name, parted(it.label)[0]])].map(([value, textContent]) => element("option", { value, textContent })));
+    this.colouring.hidden = !data.cases.length;
     this.tables();
     this.note.textContent = [this.also(), ...data.left_out.map((it) => sentence(it))].filter((it) => it).join(" ");
     this.note.hidden = !this.note.textContent;
     this.canvas.setAttribute("aria-label", this.summary());
-    this.canvas.style.minHeight = `${Math.max(320, 60 + 130 * data.panels.length)}px`;
+    this.canvas.style.minHeight = `${Math.max(300, 60 + 112 * data.panels.length)}px`;
   }
 
   // Which cases show no point, and why.
@@ -180,10 +189,10 @@ export class Diagram {
 
   areas({ width, height }) {
     const all = this.shown(), weights = all.map(({ panel }) => (panel.section ? HIGHER : 1)), sum = weights.reduce((a, b) => a + b, 0);
-    const gap = 12, free = height - 52 - gap * (all.length - 1);
-    let top = 10;
+    const gap = 26, free = height - 64 - gap * (all.length - 1);
+    let top = 22;
     return all.map((_, i) => {
-      const bottom = top + free * weights[i] / sum, area = { left: 70, top, right: width - 18, bottom };
+      const bottom = top + free * weights[i] / sum, area = { left: 56, top, right: width - 18, bottom };
       top = bottom + gap;
       return area;
     });
@@ -204,10 +213,11 @@ export class Diagram {
     if (!this.data || !made.width) return;
     const ends = this.seen(), all = this.shown(), areas = this.areas(made), { x } = this.data;
     const seen = this.data.cases.reduce((sum, it, i) => sum + (it.sort === null ? 0 : all[0].panel.values[i]?.length ?? 0), 0);
-    const size = seen > 20_000 ? 0.6 : seen > 4000 ? 0.9 : 1.4;
+    // Points stand out on both sides of the lines through them.
+    const size = (seen > 20_000 ? 0.6 : seen > 4000 ? 0.9 : 1.4) * (this.hasLines() ? 1.3 : 1);
     this.places = all.map((one, i) => {
       const area = areas[i], isLast = i === all.length - 1;
-      const place = frame(drawn, area, { range: ends, log: x.log, label: isLast ? x.label : "" }, { range: this.ordinates(one, ends), label: one.panel.label });
+      const place = frame(drawn, area, { range: ends, log: x.log, label: isLast ? x.label : "" }, { range: this.ordinates(one, ends), label: one.panel.label, isAbove: true });
       within(drawn, area, () => this.paint(drawn, one, place, area, size));
       within(drawn, { left: area.left - 6, right: area.right + 6, top: area.top - 6, bottom: area.bottom + 6 }, () => this.symbols(drawn, one, place, ends));
       return { ...one, area, place };
@@ -376,7 +386,7 @@ export class Diagram {
     if (!this.places) return;
     this.mark();
     const words = special ? this.toldOfSpecial(special) : spot ? this.told(spot) : ramp ? this.toldOfRamp(ramp) : "";
-    this.at.textContent = words || "\u00a0";
+    this.at.replaceChildren(...marked(words || "\u00a0"));
     if (isKey && words) say(words);
     if (!event || !words) return tip.hide();
     if (special) this.besideSpecial(special, event);

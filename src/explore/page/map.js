@@ -1,9 +1,9 @@
 // The map: its cells, the marks over them, and the key of its colours.
 
 import { hatch } from "./cells.js";
-import { parted } from "./element.js";
+import { element, parted } from "./element.js";
 import { cross, cursor, dot, dots, front, letter, line, manifold, rectangle, saddle, sectionPoint } from "./marks.js";
-import { colours, room, upward } from "./plot.js";
+import { colours, room, sizeOf, upward } from "./plot.js";
 import { Plane } from "./plane.js";
 import { numbers, share } from "./scale.js";
 import { result, short } from "./ticks.js";
@@ -32,7 +32,7 @@ export class CellMap extends Plane {
   }
 
   area() {
-    const area = room(this.canvas.getBoundingClientRect());
+    const area = room(sizeOf(this.canvas));
     return { ...area, right: Math.max(area.right + 18 - (this.keyRoom || 0), area.left + 60) };
   }
 
@@ -107,7 +107,7 @@ export class CellMap extends Plane {
     const { key, told } = this.data, left = area.right + 14;
     if (key.kinds) kinds(drawn, area, left, this.data);
     else bar(drawn, area, left, key);
-    if (!key.kinds) upward(drawn, told, this.canvas.getBoundingClientRect().width - 10, (area.top + area.bottom) / 2);
+    if (!key.kinds) upward(drawn, told, sizeOf(this.canvas).width - 10, (area.top + area.bottom) / 2);
   }
 }
 
@@ -143,12 +143,21 @@ function kinds(drawn, area, left, { key, values }) {
   });
 }
 
+/** The colours of bars as pictures one pixel wide, from above. */
+const bars = new WeakMap();
+function picture(key) {
+  if (!bars.has(key)) {
+    const count = key.colours.length, made = element("canvas", { width: 1, height: count }), image = new ImageData(1, count);
+    key.colours.forEach((rgb, i) => image.data.set([...rgb, 255], 4 * (count - 1 - i)));
+    made.getContext("2d").putImageData(image, 0, 0);
+    bars.set(key, made);
+  }
+  return bars.get(key);
+}
+
 function bar(drawn, area, left, key) {
-  const height = area.bottom - area.top, count = key.colours.length, { ink, faint } = colours();
-  key.colours.forEach((rgb, i) => {
-    drawn.fillStyle = `rgb(${rgb})`;
-    drawn.fillRect(left, area.bottom - (i + 1) * height / count, SWATCH, height / count + 0.6);
-  });
+  const height = area.bottom - area.top, { ink, faint } = colours();
+  drawn.drawImage(picture(key), left, area.top, SWATCH, height);
   drawn.strokeStyle = faint;
   drawn.strokeRect(left, area.top, SWATCH, height);
   drawn.fillStyle = ink;

@@ -100,6 +100,9 @@ export class Motions {
     LETTERS.forEach((name, i) => handOver(`pin-${name.toLowerCase()}`, `Pinned motion ${name}`, this.pins[i]?.it?.command));
   }
 
+  /** Tells what follows below the charts, when those are seen. */
+  finish() { this.panels.forEach((it) => it.finish()); }
+
   place(panels) {
     by("motion-section").classList.toggle("compare", this.pins.length > 0);
     by("motions").dataset.count = panels.length;

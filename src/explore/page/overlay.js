@@ -72,11 +72,13 @@ export function mark() {
   const { map, tradeOff, basin } = page, point = onMap(chosen());
   const place = point && map.shares(point), isOther = place && !place.every((it, i) => it === last?.[i]);
   // The mark of the keyboard follows the chosen case only where that changes.
+  const seen = JSON.stringify([map.chosen, map.mark, map.marks.pins, map.marks.line]);
   map.chosen = last = place;
   if (isOther || (place && !map.mark)) map.mark = place;
   const pinned = pins().map((it, i) => ({ point: onMap(it), name: "AB"[i] })).filter((it) => it.point);
   const line = ends()?.map((it) => axes().map((axis) => it[axis.name])) ?? null;
-  map.set({ pins: pinned, line });
+  // A case that was clicked is marked already.
+  if (JSON.stringify([place, map.mark, pinned, line]) !== seen) map.set({ pins: pinned, line });
   // A case with a start of its own may have another motion than the case of the file.
   const isOwn = Object.keys(chosen() || {}).some((name) => name.startsWith("start_") && !page.choices.axis(name));
   tradeOff.mark(isOwn ? null : cellOf(point));

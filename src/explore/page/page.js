@@ -15,6 +15,7 @@ import { by, element, fault, marked } from "./element.js";
 import { facts } from "./facts.js";
 import { caseForm, fillForm, lineForm } from "./form.js";
 import { handMaps, nameSaving } from "./handed.js";
+import { Indices } from "./indices.js";
 import { decorate } from "./icons.js";
 import { quoted } from "./keep.js";
 import { legend } from "./legend.js";
@@ -40,13 +41,13 @@ async function showMap() {
   asking?.abort();
   const { signal } = asking = new AbortController(), begun = performance.now(), task = busy.begin("map", "Map");
   const asked = page.choices.asked(), cells = JSON.stringify({ ...asked, of: null });
-  const data = await ask.map(asked, signal).catch((it) => { task.end(false); throw it; }), came = performance.now();
+  const data = await attractors.tinted(asked, signal).catch((it) => { task.end(false); throw it; }), came = performance.now();
   // What lay over other cells is not over these.
   if (cells !== lying) { lying = null; bare(); }
   page.raw = data;
   paint();
   task.end();
-  attractors.find(data, choose, signal).catch(fault);
+  attractors.show(choose);
   const now = performance.now();
   Object.assign(by("map").dataset, { milliseconds: (now - begun).toFixed(1), painted: (now - came).toFixed(1) });
   by("map").setAttribute("aria-label", `Map of ${data.told} over ${data.x.label} and ${data.y.label}, ${data.x.values.length} by ${data.y.values.length} cases`);
@@ -97,7 +98,11 @@ async function showMotion() {
   // The frame that shows the motion is painted before the next task.
   requestAnimationFrame(() => {
     const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => { by("motions").dataset.milliseconds = (performance.now() - begun).toFixed(1); };
+    port1.onmessage = () => {
+      const taken = performance.now() - begun;
+      page.motions.finish();
+      by("motions").dataset.milliseconds = taken.toFixed(1);
+    };
     port2.postMessage(0);
   });
 }
@@ -217,7 +222,7 @@ function build(file) {
 function describe() {
   const { file } = page;
   by("title").textContent = file.title;
-  by("about").textContent = `${file.file}: ${file.cases.toLocaleString("en")} cases; ${file.program}`;
+  by("about").textContent = `${file.file}: ${file.cases.toLocaleString("en")} case${file.cases === 1 ? "" : "s"}; ${file.program}`;
   by("about").title = by("about").textContent;
   by("study").textContent = file.study;
   // Tables that are open stay so while a run goes on.
@@ -251,6 +256,7 @@ async function open(file) {
     document.body.dataset.ready = "true";
   }
   // Draws have no axes, and are shown over what was drawn.
+  if (file.is_design) new Indices(by("whole-place"), file);
   if (file.draws?.length) new Scatter(by("whole-place"), { choose }).show().then(() => { document.body.dataset.ready = "true"; }, fault);
   view.changed(changed);
   recoloured("legend", legend);

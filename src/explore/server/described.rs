@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::explored::Explored;
 use super::map::SETTINGS;
+use super::sensitivity::is_design;
 use super::stored_diagram;
 use crate::description::{Chart, Description, Output};
 use crate::figure::shown_quantity;
@@ -30,6 +31,7 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "directions": directions.collect::<Vec<_>>(),
         "outputs": outputs_json(explored),
         "constants": constants_json(explored),
+        "is_design": is_design(explored),
         "has_curves": has_branches(frame),
         "model": model_json(explored),
         "running": running,

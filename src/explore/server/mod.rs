@@ -17,6 +17,7 @@ mod map;
 mod motion;
 mod private_folder;
 mod saved;
+mod sensitivity;
 mod source;
 mod stored_basin;
 mod stored_diagram;
@@ -157,8 +158,9 @@ fn router(shared: Shared) -> Router {
         .route("/api/trade-off", of_file(readings, map::trade_off))
         .route("/api/motion", of_file(motions, |it, asked| Ok(json(&motion::motion(it, asked)?))))
         .route("/api/draws", of_file(readings, |it, asked| Ok(json(&draws::draws(it, asked)?))))
-        .route("/api/diagram", of_file(readings, |it, asked| Ok(json(&stored_diagram::diagram(it, asked)?))))
-        .route("/api/stored-basin", of_file(readings, |it, asked| Ok(json(&stored_basin::stored_basin(it, asked)?))))
+        .route("/api/diagram", of_file(readings, stored_diagram::diagram))
+        .route("/api/stored-basin", of_file(readings, stored_basin::stored_basin))
+        .route("/api/sensitivity", of_file(readings, sensitivity::sensitivity))
         .route("/api/figure", get(figure))
         .route("/api/line", get(line))
         .route("/api/branches", get(branches))

@@ -78,9 +78,13 @@ pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
     let command =
         format!("{} --cycles {cycles}", command(case, &protocol, &explored.file.to_string_lossy()));
     let most = SimulationSize { cycles, events: MOST_EVENTS };
+    let t0 = std::time::Instant::now();
     let simulation = model_of(&case.parameters).simulate(case, most, protocol.tolerance);
+    let t1 = std::time::Instant::now();
     let orbit = settle_case(case, &protocol);
+    let t2 = std::time::Instant::now();
     let history = history(case, &orbit, protocol.tolerance);
+    eprintln!("TIME simulate {:?} settle {:?} history {:?} cycles {}", t1 - t0, t2 - t1, t2.elapsed(), orbit.cycles);
     if stop::is_asked() {
         let instead = format!("run `{command}`, which has no such limit");
         return Err(Refusal::late(MOTION_BUDGET, &instead));

@@ -1,8 +1,9 @@
 //! What a file of basins tells of them: its attractors, the saddles between the basins, and their manifolds.
 
+use axum::response::Response;
 use serde_json::{Value, json};
 
-use super::answer::Refusal;
+use super::answer::{Refusal, json as json_answer};
 use super::asked::Asked;
 use super::described::shown_json;
 use super::explored::Explored;
@@ -16,12 +17,12 @@ use crate::study::DrawingKind;
 /// What lies over the basins of the plane that a request names.
 ///
 /// Fails where an axis is no coordinate of a start.
-pub fn stored_basin(explored: &Explored, asked: &Asked) -> Result<Value, Refusal> {
+pub fn stored_basin(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
     let drawing = map::drawing(explored, asked, DrawingKind::Basin)?;
     let names = over_basin_variables(&drawing, explored.model());
     let dataset = explored.part(names, &drawing)?;
     let told = over_basin(&*dataset, &drawing).map_err(Refusal::undrawn)?;
-    Ok(basin_json(explored, &told))
+    Ok(json_answer(&basin_json(explored, &told)))
 }
 
 fn basin_json(explored: &Explored, told: &OverBasin) -> Value {
@@ -41,6 +42,7 @@ fn basin_json(explored: &Explored, told: &OverBasin) -> Value {
 fn attractor_json(it: &BasinAttractor) -> Value {
     json!({
         "colour": it.colour,
+        "basin": it.basin,
         "motion": it.motion,
         "case": it.case,
         "outputs": it.outputs.iter().map(|(_, value)| *value).collect::<Vec<f64>>(),

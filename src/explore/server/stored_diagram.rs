@@ -1,8 +1,9 @@
 //! The bifurcation diagram that a file has: the points of all its sweeps, its branches with their special points, and its ramps.
 
+use axum::response::Response;
 use serde_json::{Value, json};
 
-use super::answer::Refusal;
+use super::answer::{Refusal, json as json_answer};
 use super::asked::Asked;
 use super::explored::Explored;
 use super::limits::limited;
@@ -59,12 +60,12 @@ pub fn drawing(explored: &Explored, asked: &Asked) -> Result<Drawing, Refusal> {
 }
 
 /// The diagram.
-pub fn diagram(explored: &Explored, asked: &Asked) -> Result<Value, Refusal> {
+pub fn diagram(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
     let drawing = drawing(explored, asked)?;
     let names = coloured_diagram_variables(&drawing, explored.model());
     let dataset = explored.part(names, &drawing)?;
     let told = coloured_diagram(&*dataset, &drawing).map_err(Refusal::undrawn)?;
-    Ok(diagram_json(explored, &drawing, &told))
+    Ok(json_answer(&diagram_json(explored, &drawing, &told)))
 }
 
 fn diagram_json(explored: &Explored, drawing: &Drawing, told: &ColouredDiagram) -> Value {
