@@ -288,7 +288,8 @@ fn sweeps(view: &View<'_>, free: &[&str]) -> Vec<String> {
 fn branches(view: &View<'_>, x: &str) -> Vec<DiagramBranch> {
     let row = |name: &str| Rows::new(view.dataset, name);
     let [request, period] = [INDEX_REQUEST, INDEX_PERIOD].map(|it| row(it.name));
-    let [of_branch, stable] = [AT_BRANCH_POINTS.branch, AT_BRANCH_POINTS.stable].map(|it| row(it.name));
+    let [of_branch, stable] =
+        [AT_BRANCH_POINTS.branch, AT_BRANCH_POINTS.stable].map(|it| row(it.name));
     let along = row(&Place::Branch.name(x));
     let names = view.dataset.texts.get(BRANCH_NAMES).map_or("", String::as_str);
     let names: Vec<&str> = names.lines().collect();
@@ -320,7 +321,8 @@ fn specials(view: &View<'_>, x: &str, outputs: &[String]) -> Vec<DiagramSpecial>
         return Vec::new();
     }
     let row = |name: &str| Rows::new(view.dataset, name);
-    let [branch, period] = [AT_SPECIAL_POINTS.branch, AT_SPECIAL_POINTS.period].map(|it| row(it.name));
+    let [branch, period] =
+        [AT_SPECIAL_POINTS.branch, AT_SPECIAL_POINTS.period].map(|it| row(it.name));
     let parts = AT_SPECIAL_POINTS.multipliers.map(|it| row(it.name));
     let along = view.quantity(x);
     for (panel, output) in outputs.iter().enumerate() {

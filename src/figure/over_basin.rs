@@ -172,8 +172,7 @@ fn saddles(view: &View<'_>, plane: &Plane<'_>) -> Vec<BasinSaddle> {
     let count = view.coordinate_values(EDGE_INDEX.name).len();
     let mut points = points(in_plane(view, plane, &edges(view.model())), count);
     let row = |entry: Entry| Rows::new(view.dataset, entry.name);
-    let [low, high, period, residual] =
-        [EDGE_LOW, EDGE_HIGH, EDGE_PERIOD, EDGE_RESIDUAL].map(row);
+    let [low, high, period, residual] = [EDGE_LOW, EDGE_HIGH, EDGE_PERIOD, EDGE_RESIDUAL].map(row);
     let parts = [EDGE_MULTIPLIER_REAL, EDGE_MULTIPLIER_IMAG].map(row);
     let all = (0..count).map(|number| BasinSaddle {
         between: [&low, &high].map(|it| it.one(number) as u64),

@@ -13,7 +13,7 @@ import { prices } from "./tradeoff.js";
 
 /** Shows the motion of a case. */
 export function choose(coordinates) {
-  clicked.at = performance.now();
+  Object.assign(clicked, { at: performance.now(), seen: null });
   view.step({ at: view.written(coordinates), ...pane("motion") });
 }
 

@@ -91,17 +91,23 @@ async function showMotion() {
   by("basin-button").disabled = !coordinates;
   offerSweep();
   if (!coordinates) { page.motions.clear(); return; }
-  const begun = clicked.at ?? performance.now();
-  clicked.at = null;
+  clicked.at ??= performance.now();
   if (!await page.motions.show(coordinates)) return;
   fillForm(page.file, coordinates);
+  drawn(true);
+}
+
+// Keeps how long it took from the click until the charts of the motion were seen, and tells it when all of the motion is told.
+function drawn(isWhole) {
   // The frame that shows the motion is painted before the next task.
   requestAnimationFrame(() => {
     const { port1, port2 } = new MessageChannel();
     port1.onmessage = () => {
-      const taken = performance.now() - begun;
+      clicked.seen ??= performance.now() - clicked.at;
+      if (!isWhole) return;
       page.motions.finish();
-      by("motions").dataset.milliseconds = taken.toFixed(1);
+      by("motions").dataset.milliseconds = clicked.seen.toFixed(1);
+      Object.assign(clicked, { at: null, seen: null });
     };
     port2.postMessage(0);
   });
@@ -198,7 +204,7 @@ function pin(all) {
 function build(file) {
   page.file = file;
   page.choices = new Choices(file);
-  page.motions = new Motions(file, { pin: (it) => pin([...pins(), it]), unpin: (key) => pin(pins().filter((it) => view.written(it) !== key)) });
+  page.motions = new Motions(file, { drawn: () => drawn(false), pin: (it) => pin([...pins(), it]), unpin: (key) => pin(pins().filter((it) => view.written(it) !== key)) });
   page.basin = new Basin(by("basin-place"), { choose, range: (all) => view.step({ starts: all && all.join(",") }), shown: () => page.basin.mark(chosen()) });
   page.line = new Line(by("line-place"), {
     choose, start: (start) => view.step({ start }), spot: (it) => page.map?.set({ spot: it && axes().map((axis) => it[axis.name]) }),

@@ -59,6 +59,15 @@ export class Panel {
     if (hasHistory) this.charts.show(it, scales); else this.charts.clear();
   }
 
+  /** Shows the histories of a motion of which nothing else is known yet. */
+  early(motion, words) {
+    this.heading.replaceChildren(...marked(words));
+    this.strip.replaceChildren(strip(null));
+    for (const it of [this.about, this.numbers, this.tables]) it.replaceChildren();
+    [this.note.hidden, this.saving.hidden] = [false, true];
+    this.charts.show({ ...motion.it, stroboscopic: [], portrait: [], isEarly: true }, null);
+  }
+
   tell({ it, failure, coordinates }) {
     const open = [...this.tables.children].map((details) => details.open);
     const failed = () => [element("p", { className: "failure", textContent: `The motion could not be computed: ${failure}` })];
