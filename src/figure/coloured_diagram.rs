@@ -243,20 +243,22 @@ fn cases(view: &View<'_>, cases: &Cases<'_>) -> Result<Vec<DiagramCase>, FigureE
     let outcomes = Outcomes::over(view, free)?;
     let periods = numbers(view, PERIOD.name, free)?;
     let attractors = numbers(view, ATTRACTOR.name, free)?;
-    let known = |all: &[f64], case: usize, least: f64| {
-        all.get(case).filter(|it| **it >= least).map(|it| *it as u64)
-    };
     let sweeps = sweeps(view, free);
     let all = (0..cases.count()).map(|case| DiagramCase {
         at: places.iter().zip(&values).map(|(place, values)| values[place(case)]).collect(),
         sweep: sweeps.get(case).cloned(),
         outcome: outcomes.name(case).map(str::to_owned),
-        period: known(&periods, case, 1.0),
-        attractor: known(&attractors, case, 0.0),
+        period: from(&periods, case, 1.0),
+        attractor: from(&attractors, case, 0.0),
         sort: None,
         colour: None,
     });
     Ok(all.collect())
+}
+
+/// The number of a case, from the least on that means something.
+fn from(all: &[f64], case: usize, least: f64) -> Option<u64> {
+    all.get(case).filter(|it| **it >= least).map(|it| *it as u64)
 }
 
 /// A variable of the cases; nothing where the results do not have it.
@@ -274,11 +276,11 @@ fn sweeps(view: &View<'_>, free: &[&str]) -> Vec<String> {
     }
     let codes = view.coordinate_values(DIRECTION.name);
     let flags = view.flags(DIRECTION.name);
-    let name = |code: &f64| {
+    let names = codes.iter().map(|code| {
         let flag = flags.iter().find(|(value, _)| *value as f64 == *code);
         flag.map_or(String::new(), |(_, name)| name.clone())
-    };
-    let names: Vec<String> = codes.iter().map(name).collect();
+    });
+    let names: Vec<String> = names.collect();
     let place = view.places_along(DIRECTION.name, free);
     let count = free.iter().map(|axis| view.coordinate_values(axis).len()).product();
     (0..count).map(|case| names[place(case)].clone()).collect()
@@ -286,11 +288,11 @@ fn sweeps(view: &View<'_>, free: &[&str]) -> Vec<String> {
 
 /// The branches along `x` that lie where `view` holds the other axes.
 fn branches(view: &View<'_>, x: &str) -> Vec<DiagramBranch> {
-    let row = |name: &str| Rows::new(view.dataset, name);
-    let [request, period] = [INDEX_REQUEST, INDEX_PERIOD].map(|it| row(it.name));
-    let [of_branch, stable] =
-        [AT_BRANCH_POINTS.branch, AT_BRANCH_POINTS.stable].map(|it| row(it.name));
-    let along = row(&Place::Branch.name(x));
+    let [request, period] =
+        [INDEX_REQUEST, INDEX_PERIOD].map(|it| Rows::new(view.dataset, it.name));
+    let [of_branch, stable] = [AT_BRANCH_POINTS.branch, AT_BRANCH_POINTS.stable]
+        .map(|it| Rows::new(view.dataset, it.name));
+    let along = Rows::new(view.dataset, &Place::Branch.name(x));
     let names = view.dataset.texts.get(BRANCH_NAMES).map_or("", String::as_str);
     let names: Vec<&str> = names.lines().collect();
     let (fits, factor) = (branches_in_view(view, &[x]), view.quantity(x).factor);
@@ -320,10 +322,9 @@ fn specials(view: &View<'_>, x: &str, outputs: &[String]) -> Vec<DiagramSpecial>
     if !view.drawing.branches || !view.shows("special-points") {
         return Vec::new();
     }
-    let row = |name: &str| Rows::new(view.dataset, name);
-    let [branch, period] =
-        [AT_SPECIAL_POINTS.branch, AT_SPECIAL_POINTS.period].map(|it| row(it.name));
-    let parts = AT_SPECIAL_POINTS.multipliers.map(|it| row(it.name));
+    let [branch, period] = [AT_SPECIAL_POINTS.branch, AT_SPECIAL_POINTS.period]
+        .map(|it| Rows::new(view.dataset, it.name));
+    let parts = AT_SPECIAL_POINTS.multipliers.map(|it| Rows::new(view.dataset, it.name));
     let along = view.quantity(x);
     for (panel, output) in outputs.iter().enumerate() {
         let own = view.quantity(output);

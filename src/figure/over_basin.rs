@@ -123,9 +123,10 @@ pub fn over_basin<'a>(
     let curves = Curves::of(&view, &plane);
     let elsewhere = "section points: the section is at another phase than the starts";
     let is_elsewhere = !is_at_starts(&view);
-    let row = |entry: Entry| Rows::new(view.dataset, entry.name);
-    let [of_stable, left, right] = [STABLE_EDGE, STABLE_LEFT, STABLE_RIGHT].map(row);
-    let [of_unstable, to] = [UNSTABLE_EDGE, UNSTABLE_ATTRACTOR].map(row);
+    let [of_stable, left, right] =
+        [STABLE_EDGE, STABLE_LEFT, STABLE_RIGHT].map(|it| Rows::new(view.dataset, it.name));
+    let [of_unstable, to] =
+        [UNSTABLE_EDGE, UNSTABLE_ATTRACTOR].map(|it| Rows::new(view.dataset, it.name));
     Ok(OverBasin {
         attractors: attractors(&view, &plane),
         saddles: saddles(&view, &plane),
@@ -171,9 +172,10 @@ fn attractors(view: &View<'_>, plane: &Plane<'_>) -> Vec<BasinAttractor> {
 fn saddles(view: &View<'_>, plane: &Plane<'_>) -> Vec<BasinSaddle> {
     let count = view.coordinate_values(EDGE_INDEX.name).len();
     let mut points = points(in_plane(view, plane, &edges(view.model())), count);
-    let row = |entry: Entry| Rows::new(view.dataset, entry.name);
-    let [low, high, period, residual] = [EDGE_LOW, EDGE_HIGH, EDGE_PERIOD, EDGE_RESIDUAL].map(row);
-    let parts = [EDGE_MULTIPLIER_REAL, EDGE_MULTIPLIER_IMAG].map(row);
+    let [low, high, period, residual] = [EDGE_LOW, EDGE_HIGH, EDGE_PERIOD, EDGE_RESIDUAL]
+        .map(|it| Rows::new(view.dataset, it.name));
+    let parts =
+        [EDGE_MULTIPLIER_REAL, EDGE_MULTIPLIER_IMAG].map(|it| Rows::new(view.dataset, it.name));
     let all = (0..count).map(|number| BasinSaddle {
         between: [&low, &high].map(|it| it.one(number) as u64),
         period: period.one(number) as u64,
@@ -193,12 +195,12 @@ fn multipliers([real, imaginary]: &[Rows; 2], number: usize) -> Vec<[f64; 2]> {
 /// The places of so many orbits, each with its own; those that are no numbers are left out.
 fn points(places: Vec<(f64, f64)>, orbits: usize) -> Vec<Vec<[f64; 2]>> {
     let cycles = places.len() / orbits.max(1);
-    let of_orbit = |number: usize| {
+    let of_orbits = (0..orbits).map(|number| {
         let own = places.iter().skip(number * cycles).take(cycles);
         let finite = own.filter(|(x, y)| x.is_finite() && y.is_finite());
         finite.map(|&(x, y)| [x, y]).collect()
-    };
-    (0..orbits).map(of_orbit).collect()
+    });
+    of_orbits.collect()
 }
 
 /// A number of a table; none where it tells of none.

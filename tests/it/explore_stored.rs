@@ -75,9 +75,18 @@ fn assert_same(told: Vec<[f64; 2]>, drawn: Vec<[f64; 2]>, what: &str) {
     let (told, drawn) = (sorted(told), sorted(drawn));
     assert_eq!(told.len(), drawn.len(), "{what}");
     for (a, b) in told.iter().zip(&drawn) {
-        let is_near = (0..2).all(|i| (a[i] - b[i]).abs() <= 1e-6 * b[i].abs().max(1e-3));
-        assert!(is_near, "{what}: {a:?} and {b:?}");
+        assert!(are_near(*a, *b), "{what}: {a:?} and {b:?}");
     }
+}
+
+fn are_near(a: [f64; 2], b: [f64; 2]) -> bool {
+    (0..2).all(|i| (a[i] - b[i]).abs() <= 1e-6 * b[i].abs().max(1e-3))
+}
+
+/// Whether all numbers are the same, but for the last digit that a text may lose.
+fn are_same(told: &[f64], kept: &[f64]) -> bool {
+    let pairs = told.iter().zip(kept);
+    told.len() == kept.len() && pairs.into_iter().all(|(a, b)| (a - b).abs() <= 1e-15 * b.abs())
 }
 
 /// The points of a sort on a panel of a diagram.
@@ -147,7 +156,7 @@ fn a_diagram_of_the_file_is_that_of_its_figure() {
                 });
                 let events = list(&told["panels"][panel]["events"]).iter();
                 let mut all = branches.chain(events.map(|it| (&it["words"], pair(&it["at"]))));
-                assert!(all.any(|it| it.0 == series && it.1 == *at), "{series} at {at:?}");
+                assert!(all.any(|it| it.0 == series && are_near(it.1, *at)), "{series} at {at:?}");
             }
         }
     }
@@ -168,14 +177,16 @@ fn cases_and_special_points_are_told_as_the_file_has_them() {
     let panel = list(&told["panels"]).iter().position(|it| it["name"] == "progression_speed");
     let values = list(&told["panels"][panel.expect("a panel")]["values"]);
     for (number_of, case) in cases.iter().enumerate() {
-        assert_eq!(number(&case["at"][0]), omegas[number_of / 2]);
+        assert!(are_same(&[number(&case["at"][0])], &[omegas[number_of / 2]]));
         assert_eq!(case["sweep"], ["upward", "downward"][number_of % 2]);
         assert_eq!(case["period"].as_f64().unwrap_or(0.0), periods[number_of]);
         let shown = number(&values[number_of][0]);
         assert!((shown - 1e3 * speeds[number_of]).abs() < 1e-4, "{shown}");
     }
     // A click on a point of either sweep gives its own motion.
-    let apart = (0..omegas.len()).find(|it| (speeds[2 * it] - speeds[2 * it + 1]).abs() > 1e-3);
+    let both = |it: &usize| periods[2 * it] > 0.0 && periods[2 * it + 1] > 0.0;
+    let differ = |it: &usize| (speeds[2 * it] - speeds[2 * it + 1]).abs() > 1e-3;
+    let apart = (0..omegas.len()).filter(both).find(differ);
     let apart = apart.expect("hysteresis");
     for (place, sweep) in ["upward", "downward"].iter().enumerate() {
         let omega = omegas[apart];
@@ -189,16 +200,17 @@ fn cases_and_special_points_are_told_as_the_file_has_them() {
     assert!(!special.is_empty() && special.len() == at.len());
     let width = real.len() / at.len();
     for (row, it) in special.iter().enumerate() {
-        assert_eq!(number(&it["x"]), at[row]);
+        assert!(are_same(&[number(&it["x"])], &at[row..=row]));
         let parts: Vec<f64> = list(&it["multipliers"]).iter().map(|it| number(&it[0])).collect();
-        assert_eq!(parts, &real[row * width..row * width + parts.len()]);
+        assert!(are_same(&parts, &real[row * width..row * width + parts.len()]));
         if it["words"] == "fold" {
             assert!(parts.iter().any(|it| (it - 1.0).abs() < 1e-3), "{parts:?}");
         }
     }
-    let branch = &told["branches"][0];
-    assert_eq!(branch["name"], "progression");
-    assert_eq!(branch["orbits"], reals(&file, "branch_omega").len());
+    let branches = list(&told["branches"]);
+    assert_eq!(branches[0]["name"], "progression");
+    let orbits: u64 = branches.iter().map(|it| it["orbits"].as_u64().expect("a count")).sum();
+    assert_eq!(orbits as usize, reals(&file, "branch_omega").len());
 }
 
 fn reals(dataset: &Dataset, name: &str) -> Vec<f64> {
@@ -237,10 +249,11 @@ fn basins_of_the_file_have_their_attractors_saddles_and_manifolds() {
     assert_eq!(attractors.len(), shares.len());
     let speed = list(&told["outputs"]).iter().position(|it| it["name"] == "progression_speed");
     for (place, it) in attractors.iter().enumerate() {
-        assert_eq!(pair(&it["share"]), [shares[place], errors[place]]);
+        assert!(are_same(&pair(&it["share"]), &[shares[place], errors[place]]));
         assert_eq!(it["case"].as_f64(), Some(cases[place]));
         let speeds = reals(&file, "attractor_progression_speed");
-        assert_eq!(number(&it["outputs"][speed.expect("it is a key number")]), speeds[place]);
+        let told = number(&it["outputs"][speed.expect("it is a key number")]);
+        assert!(are_same(&[told], &speeds[place..=place]), "{told}");
         // The cells of the map have the same colour.
         assert_eq!(list(&it["colour"]).len(), 3);
     }
@@ -252,7 +265,7 @@ fn basins_of_the_file_have_their_attractors_saddles_and_manifolds() {
     assert_eq!([number(&saddle["between"][0]), number(&saddle["between"][1])], [0.0, 1.0]);
     let real = reals(&file, "edge_multiplier_real");
     let parts: Vec<f64> = list(&saddle["multipliers"]).iter().map(|it| number(&it[0])).collect();
-    assert_eq!(parts, &real[..parts.len()]);
+    assert!(are_same(&parts, &real[..parts.len()]));
     assert!(parts.iter().any(|it| it.abs() > 1.0), "a saddle is not stable: {parts:?}");
     // Of a plane that has none of them it is refused.
     let refused = explorer.get("/api/stored-basin?x=start_r&y=omega");
@@ -279,8 +292,11 @@ fn limits_go_into_saved_figures() {
         let place = ["--name", of, "--folder", ".", "--formats", "svg"];
         work.run(&[&figure[..], of_map, &limits, &place].concat()).done();
         let drawn = fs::read_to_string(work.path(&format!("{of}.svg"))).expect("written");
-        // Their names differ.
-        let body = |svg: &str| svg.split_once("<path").map(|it| it.1.to_owned());
+        // Their names differ, and with these the sum over their bytes.
+        let body = |svg: &str| {
+            let body = svg.split_once("<path").and_then(|it| it.1.split_once("<!--"));
+            body.expect("a drawing").0.to_owned()
+        };
         assert_eq!(body(&saved(kind)), body(&drawn), "{of}");
     }
     for wrong in ["limits-x=3,1", "limits-x=1", "limits-y=a,b", "limits-x=nan,1"] {
@@ -311,9 +327,9 @@ fn ramps_of_the_file_are_shown_without_cases_along_them() {
     }
     let jumps = drawn.iter().filter(|it| it.0 == 1 && it.1 == "up: jump").map(|it| it.2[0]);
     let jumps: Vec<f64> = jumps.collect();
-    assert_eq!(list(&ramp["jumps"]).iter().map(number).collect::<Vec<_>>(), jumps);
+    assert!(are_same(&list(&ramp["jumps"]).iter().map(number).collect::<Vec<_>>(), &jumps));
     assert!(!jumps.is_empty());
-    for wrong in ["x=p_d", "x=", "of=nothing", "colour-by=nothing", "limits-x=1", "y=omega"] {
+    for wrong in ["x=p_d", "x=", "of=nothing", "limits-x=1", "y=omega"] {
         let refused = explorer.get(&format!("/api/diagram?{wrong}"));
         let expected = if wrong == "x=" { 200 } else { 400 };
         assert_eq!(refused.status, expected, "{wrong}: {}", refused.text());

@@ -70,7 +70,12 @@ const swatched = (colour, text) => {
   swatch.style.background = `rgb(${colour})`;
   return element("span", {}, swatch, text);
 };
-const share = ([value, error]) => `${short(100 * value, 3)} %${error ? ` ± ${short(100 * error, 2)}` : ""}`;
+// A share with its standard error, of which two digits say how many of the share are known.
+function share([value, error]) {
+  if (!error) return `${short(100 * value, 3)} %`;
+  const decimals = Math.min(Math.max(1 - Math.floor(Math.log10(100 * error)), 0), 4);
+  return `${(100 * value).toFixed(decimals)} ± ${(100 * error).toFixed(decimals)} %`;
+}
 const motion = (text) => (/^period/.test(text) ? `periodic, ${text}` : text);
 
 function tables(choose) {

@@ -3,14 +3,14 @@
 import * as ask from "./ask.js";
 import * as busy from "./busy.js";
 import * as curves from "./curves.js";
+import * as reading from "./reading.js";
 import * as tip from "./tip.js";
 import * as view from "./view.js";
-import { button, by, element, folded, labelled, marked, parted, say, said, select, sentence, table } from "./element.js";
+import { entries, hasLines, marked, paint, symbol } from "./drawing.js";
+import { button, by, element, labelled, marked as indexed, parted, say, select, sentence } from "./element.js";
 import { handOver, quoted, saveButtons } from "./keep.js";
-import { entry } from "./marks.js";
-import { multipliers } from "./numbers.js";
 import { colours, context, frame, redrawn, share, within } from "./plot.js";
-import { range, result, short } from "./ticks.js";
+import { range, short } from "./ticks.js";
 
 /** A symbol is meant that lies so near, and a point of a ramp or a branch [CSS pixels]. */
 const [NEAR, BESIDE] = [9, 14];
@@ -22,21 +22,6 @@ const LEAST = 1e-4;
 const HIGHER = 1.5;
 /** Parts of the address on which the diagram depends: what lies across, what tells the colours, which panel, and the ends of the abscissa. */
 export const KEYS = ["over", "by", "panel", "range"];
-
-const square = (drawn, x, y, r) => drawn.fillRect(x - r, y - r, 2 * r, 2 * r);
-const light = ([r, g, b]) => 0.3 * r + 0.59 * g + 0.11 * b;
-const isDark = () => light(colours().paper.match(/[\da-f]{2}/gi).map((it) => parseInt(it, 16))) < 128;
-// A colour of the figures, which are on white: what is nearly black there has the colour of the text here.
-const shade = (rgb) => (isDark() && light(rgb) < 60 ? colours().ink : `rgb(${rgb})`);
-// A special point in the colours of the text and the paper, as points have colours of their own; the shapes are those of the figure.
-function symbol(drawn, [x, y], words, radius = 4.5) {
-  const { ink, paper } = colours(), isHollow = /grazing|unresolved/.test(words), r = 0.7 * radius;
-  if (words !== "event sequence") return curves.point(drawn, [x, y], { words }, radius, ...(isHollow ? [paper, ink] : [ink, paper]));
-  for (const [line, tone] of [[3.5, paper], [1.4, ink]]) {
-    [drawn.lineWidth, drawn.strokeStyle] = [line, tone];
-    drawn.beginPath(); drawn.moveTo(x - r, y - r); drawn.lineTo(x + r, y + r); drawn.moveTo(x - r, y + r); drawn.lineTo(x + r, y - r); drawn.stroke();
-  }
-}
 
 /** The diagram in its place; `choose` shows the motion of a case by its coordinates. */
 export class Diagram {
@@ -123,7 +108,8 @@ export class Diagram {
     this.columns = [...columns].sort(([a], [b]) => a - b).map(([value, cases]) => ({ x: value * data.x.factor, cases }));
     this.panel.replaceChildren(...[["", "all"], ...data.panels.map((it) => [it.name, parted(it.label)[0]])].map(([value, textContent]) => element("option", { value, textContent })));
     this.colouring.hidden = !data.cases.length;
-    this.tables();
+    reading.tables(data, by("curves-place"));
+    by("branches-empty").hidden = !by("curves-place").hidden;
     this.note.textContent = [this.also(), ...data.left_out.map((it) => sentence(it))].filter((it) => it).join(" ");
     this.note.hidden = !this.note.textContent;
     this.canvas.setAttribute("aria-label", this.summary());
@@ -141,23 +127,6 @@ export class Diagram {
   summary() {
     const { x, panels, cases, branches, special, ramps } = this.data, some = (all, word) => (all.length ? [`${all.length} ${word}`] : []);
     return `Bifurcation diagram of ${panels.map((it) => parted(it.label)[0]).join(", ")} over ${parted(x.label)[0]}: ${[...some(cases, "cases"), ...some(branches, "branches"), ...some(special, "special points"), ...some(ramps, "ramps")].join(", ")}`;
-  }
-
-  // The branches of the file and their special points, in the pane.
-  tables() {
-    const { x, branches, special, panels } = this.data, place = by("curves-place"), made = [];
-    const many = (all) => (all.length > 4 ? `${all.length} points` : all.map((it) => short(it, 6)).join("; ")) || "–";
-    if (branches.length) {
-      const rows = branches.map((it) => [it.name, String(it.period), short(it.ends[0]), short(it.ends[1]), String(it.orbits), `${short(100 * it.stable / it.orbits, 3)} %`]);
-      made.push(element("h2", { textContent: "Branches of the file" }), table("Branches of the file", ["branch", "period", `from, ${x.label}`, `to, ${x.label}`, "orbits", "stable"], rows));
-    }
-    if (special.length) {
-      const rows = () => special.map((it) => [it.words, short(it.x, 9), String(it.period), ...panels.map((_, i) => many(it.values[i])), multipliers(it.multipliers)]);
-      made.push(folded(`Special points of the branches (${special.length})`, ["point", x.label, "period", ...panels.map((it) => it.label), "multipliers"], rows, true));
-    }
-    place.replaceChildren(...made);
-    place.hidden = !made.length;
-    by("branches-empty").hidden = made.length > 0;
   }
 
   // The panels that are seen.
@@ -214,65 +183,40 @@ export class Diagram {
     const ends = this.seen(), all = this.shown(), areas = this.areas(made), { x } = this.data;
     const seen = this.data.cases.reduce((sum, it, i) => sum + (it.sort === null ? 0 : all[0].panel.values[i]?.length ?? 0), 0);
     // Points stand out on both sides of the lines through them.
-    const size = (seen > 20_000 ? 0.6 : seen > 4000 ? 0.9 : 1.4) * (this.hasLines() ? 1.3 : 1);
+    const size = (seen > 20_000 ? 0.6 : seen > 4000 ? 0.9 : 1.4) * (hasLines(this.data) ? 1.3 : 1);
     this.places = all.map((one, i) => {
       const area = areas[i], isLast = i === all.length - 1;
       const place = frame(drawn, area, { range: ends, log: x.log, label: isLast ? x.label : "" }, { range: this.ordinates(one, ends), label: one.panel.label, isAbove: true });
-      within(drawn, area, () => this.paint(drawn, one, place, area, size));
+      within(drawn, area, () => paint(drawn, this.data, one, place, area, size));
       within(drawn, { left: area.left - 6, right: area.right + 6, top: area.top - 6, bottom: area.bottom + 6 }, () => this.symbols(drawn, one, place, ends));
       return { ...one, area, place };
     });
+    this.choice(drawn);
     // The picture without the spot, which follows the pointer.
     this.copy ??= document.createElement("canvas");
     [this.copy.width, this.copy.height] = [this.canvas.width, this.canvas.height];
     this.copy.getContext("2d").drawImage(this.canvas, 0, 0);
     this.mark();
-    this.explain(ends);
+    this.legend.replaceChildren(...entries(this.data, all, ends, this.chosenAt()));
   }
 
-  paint(drawn, { panel, number }, place, area, size) {
-    const { cases, sorts, windows, ramps, x } = this.data, shades = colours();
-    drawn.fillStyle = "#80808026";
-    for (const [from, to] of windows) drawn.fillRect(place.x(from), area.top, place.x(to) - place.x(from), area.bottom - area.top);
-    const [low, high] = this.data.panels[number].section ? [1, -1] : [place.y(0), place.y(0)];
-    if (low === high && low > area.top && low < area.bottom) { drawn.fillStyle = shades.line; drawn.fillRect(area.left, low - 0.5, area.right - area.left, 1); }
-    const looks = sorts.map(([, colour]) => shade(colour));
-    cases.forEach((it, i) => {
-      if (it.sort === null) return;
-      const across = place.x(it.at[0] * x.factor);
-      if (across < area.left - 2 || across > area.right + 2) return;
-      drawn.fillStyle = this.data.by ? it.colour ? shade(it.colour) : shades.faint : looks[it.sort];
-      for (const value of panel.values[i]) square(drawn, across, place.y(value), size);
-    });
-    for (const it of ramps) {
-      drawn.fillStyle = shade(it.colour);
-      for (const [at, value] of it.panels[number]) square(drawn, place.x(at), place.y(value), 0.8);
-      [drawn.strokeStyle, drawn.lineWidth] = [shade(it.colour), 1];
-      drawn.setLineDash([3, 3]);
-      for (const at of it.jumps) { drawn.beginPath(); drawn.moveTo(place.x(at), area.top); drawn.lineTo(place.x(at), area.bottom); drawn.stroke(); }
-    }
-    for (const [lines, dashes, width] of [[panel.unstable, [4, 3], 1], [panel.stable, [], 1.3]]) {
-      [drawn.strokeStyle, drawn.lineWidth] = [shades.ink, width];
-      drawn.setLineDash(dashes);
-      for (const line of lines) {
-        drawn.beginPath();
-        line.forEach(([at, value], i) => drawn[i ? "lineTo" : "moveTo"](place.x(at), place.y(value)));
-        drawn.stroke();
-      }
-    }
-    drawn.setLineDash([]);
+  // Where the motion is that is shown; none beyond what is seen, or where it is one at other parameters.
+  chosenAt() {
+    const at = view.coordinates(view.text("at"))?.[this.data.x.name], x = at === undefined ? NaN : at * this.data.x.factor, [low, high] = this.seen();
+    return x >= low && x <= high ? x : null;
+  }
+
+  choice(drawn) {
+    const x = this.chosenAt();
+    if (x === null) return;
+    [drawn.strokeStyle, drawn.lineWidth] = [colours().mark, 1.2];
+    for (const { area, place } of this.places) { drawn.beginPath(); drawn.moveTo(place.x(x), area.top); drawn.lineTo(place.x(x), area.bottom); drawn.stroke(); }
   }
 
   // Special points in the order of the figure: the last are drawn over the first.
   symbols(drawn, one, place, [low, high]) {
-    const all = this.marked(one).filter(({ at }) => at[0] >= low && at[0] <= high);
+    const all = marked(this.data, one).filter(({ at }) => at[0] >= low && at[0] <= high);
     for (const { words, at } of curves.ordered(all)) symbol(drawn, [place.x(at[0]), place.y(at[1])], words);
-  }
-
-  // The special points of a panel, each with where it is: those of the branches and those of the attractors of the sweeps.
-  marked({ panel, number }) {
-    const ofBranches = this.data.special.flatMap((it) => it.values[number].map((value) => ({ ...it, at: [it.x, value] })));
-    return [...panel.events, ...ofBranches];
   }
 
   // What the pointer or the keyboard has reached.
@@ -317,7 +261,7 @@ export class Diagram {
     if (!found) return {};
     const { place, panel, number } = found, far = ([x, y]) => Math.hypot(place.x(x) - left, place.y(y) - top);
     let best = null;
-    for (const it of this.marked(found)) if (far(it.at) <= NEAR && !(best && far(best.at) < far(it.at))) best = { ...it, panel: number };
+    for (const it of marked(this.data, found)) if (far(it.at) <= NEAR && !(best && far(best.at) < far(it.at))) best = { ...it, panel: number };
     if (best) return { special: best };
     return { spot: this.nearest(left, top, place, panel), ramp: this.columns.length ? null : this.ramp(far, number) };
   }
@@ -385,64 +329,18 @@ export class Diagram {
     Object.assign(this, { spot, special });
     if (!this.places) return;
     this.mark();
-    const words = special ? this.toldOfSpecial(special) : spot ? this.told(spot) : ramp ? this.toldOfRamp(ramp) : "";
-    this.at.replaceChildren(...marked(words || "\u00a0"));
+    const { data } = this, words = special ? reading.toldOfSpecial(data, special) : spot ? reading.told(data, spot) : ramp ? reading.toldOfRamp(data, ramp) : "";
+    this.at.replaceChildren(...indexed(words || "\u00a0"));
     if (isKey && words) say(words);
     if (!event || !words) return tip.hide();
-    if (special) this.besideSpecial(special, event);
-    else if (spot) this.beside(spot, event);
-    else tip.show(event, { head: ramp.name, colour: shade(ramp.colour), rows: [tip.pair(this.data.x.label, short(ramp.at[0])), tip.pair(this.data.panels[ramp.number].label, short(ramp.at[1]))] });
+    if (special) reading.besideSpecial(data, special, event);
+    else if (spot) reading.beside(data, spot, event);
+    else reading.besideRamp(data, ramp, event);
   }
-
-  // What a case is: its motion and its sweep.
-  motion(it) {
-    const period = it.outcome === "periodic" && it.period ? `, period ${it.period}` : "";
-    return `${it.outcome ?? "no outcome"}${period}`;
-  }
-
-  // The values of a case, one of each panel that has one, in words.
-  values(number) {
-    const { panels } = this.data;
-    return panels.filter((it) => it.values[number].length).map((it) => {
-      const all = it.values[number], [, unit] = parted(it.label);
-      return [it.label, all.length > 3 ? `${all.length} values` : all.map((value) => result(value, unit)).join("; ")];
-    });
-  }
-
-  beside({ number, x }, event) {
-    const it = this.data.cases[number], rows = [tip.pair(this.data.x.label, short(x))];
-    if (it.sweep) rows.push(["sweep", it.sweep]);
-    if (!this.data.by && this.data.sorts.length > 1 && it.attractor !== null && it.attractor !== undefined) rows.push(["drawn as", this.data.sorts[it.sort][0]]);
-    for (const [label, text] of this.values(number)) rows.push(tip.pair(label, text));
-    tip.show(event, { head: this.motion(it), colour: this.colour(it), rows });
-  }
-
-  colour(it) { return this.data.by ? it.colour && shade(it.colour) : shade(this.data.sorts[it.sort][1]); }
-
-  told({ number, x }) {
-    const it = this.data.cases[number];
-    return [said(this.data.x.label, x), ...(it.sweep ? [`sweep ${it.sweep}`] : []), this.motion(it), ...this.values(number).map(([label, text]) => said(label, text))].join("; ");
-  }
-
-  besideSpecial(it, event) {
-    const rows = [tip.pair(this.data.x.label, short(it.at[0], 9))];
-    if (it.period) rows.push(["period", String(it.period)]);
-    const { panels } = this.data;
-    panels.forEach((panel, i) => { if (it.values?.[i]?.length === 1 || !it.values && i === it.panel) rows.push(tip.pair(panel.label, short(it.values ? it.values[i][0] : it.at[1]))); });
-    if (it.multipliers?.length) rows.push(["multipliers", multipliers(it.multipliers)]);
-    tip.show(event, { head: it.words, colour: null, rows: [...rows, ["of", it.multipliers ? "a branch" : "an attractor of a sweep"]] });
-  }
-
-  toldOfSpecial(it) {
-    const of = it.multipliers ? `on a branch of period ${it.period}; multipliers ${multipliers(it.multipliers)}` : "of an attractor of a sweep";
-    return `${sentence(it.words).slice(0, -1)} at ${said(this.data.x.label, short(it.at[0], 9))}, ${of}`;
-  }
-
-  toldOfRamp({ name, at, number }) { return `${name}: ${said(this.data.x.label, at[0])}; ${said(this.data.panels[number].label, at[1])}`; }
 
   click(it, event) {
     this.hover(it, event);
-    if (it.special) say(this.toldOfSpecial(it.special));
+    if (it.special) say(reading.toldOfSpecial(this.data, it.special));
     else if (it.spot) this.compute(it.spot);
   }
 
@@ -476,41 +374,10 @@ export class Diagram {
 
   // Goes through the special points that are seen, in the order of the abscissa.
   stepSpecial(by) {
-    const [low, high] = this.seen(), one = this.places[0], all = this.marked(one).filter(({ at }) => at[0] >= low && at[0] <= high).sort((a, b) => a.at[0] - b.at[0]);
+    const [low, high] = this.seen(), one = this.places[0], all = marked(this.data, one).filter(({ at }) => at[0] >= low && at[0] <= high).sort((a, b) => a.at[0] - b.at[0]);
     if (!all.length) return this.hover({}, null, true);
     const at = this.special ? all.findIndex((it) => it.words === this.special.words && it.at.every((x, i) => x === this.special.at[i])) : by > 0 ? -1 : 0;
     this.hover({ special: { ...all[(at + by + all.length) % all.length], panel: one.number } }, null, true);
-  }
-
-  explain([low, high]) {
-    const { sorts, cases, by: paint, ramps, windows, x } = this.data, made = [], shades = colours();
-    const isIn = (at) => at >= low && at <= high, inside = cases.filter((it) => it.sort !== null && isIn(it.at[0] * x.factor));
-    const disc = (colour, r = 3) => (drawn, [at, y]) => { drawn.fillStyle = colour; square(drawn, at, y, r); };
-    if (paint?.key.kinds) for (const [name, colour] of paint.key.kinds) made.push(entry(name, disc(colour ? shade(colour) : shades.faint)));
-    else if (paint) made.push(entry(`${parted(paint.told)[0]} from ${short(paint.key.range[0], 4)} to ${short(paint.key.range[1], 4)} ${parted(paint.told)[1]}`, (drawn, [at, y]) => {
-      const all = paint.key.colours, step = 26 / all.length;
-      all.forEach((rgb, i) => { drawn.fillStyle = `rgb(${rgb})`; drawn.fillRect(at - 13 + i * step, y - 4, step + 0.6, 8); });
-    }));
-    else sorts.forEach(([name, colour], sort) => { if (inside.some((it) => it.sort === sort) && (sorts.length > 1 || this.hasLines())) made.push(entry(sorts.length > 1 ? name : "settled", disc(shade(colour)))); });
-    if (windows.some(([from, to]) => to > low && from < high)) made.push(entry("coexistence", (drawn, [at, y]) => { drawn.fillStyle = "#80808040"; drawn.fillRect(at - 12, y - 7, 24, 14); }));
-    const line = (dashes, width) => (drawn, [at, y]) => {
-      drawn.setLineDash(dashes);
-      [drawn.strokeStyle, drawn.lineWidth] = [shades.ink, width];
-      drawn.beginPath(); drawn.moveTo(at - 13, y); drawn.lineTo(at + 13, y); drawn.stroke();
-    };
-    if (this.hasLines("stable")) made.push(entry("stable orbits", line([], 1.4)));
-    if (this.hasLines("unstable")) made.push(entry("unstable orbits", line([4, 3], 1.2)));
-    const kinds = new Set(this.shown().flatMap((one) => this.marked(one)).filter(({ at }) => isIn(at[0])).map(({ words }) => words));
-    for (const words of kinds) made.push(entry(words, (drawn, at) => symbol(drawn, at, words)));
-    for (const it of ramps) made.push(entry(it.name, disc(shade(it.colour), 2.5)));
-    if (ramps.some((it) => it.jumps.length)) made.push(entry("jump", line([3, 3], 1)));
-    this.legend.replaceChildren(...made);
-  }
-
-  // Whether there are lines of a stability, or of any.
-  hasLines(kind) {
-    const has = (it) => this.data.panels.some((panel) => panel[it].some((line) => line.length > 1));
-    return kind ? has(kind) : has("stable") || has("unstable");
   }
 
   // The command of the figure.

@@ -83,10 +83,13 @@ export function saddle(drawn, place) {
 /** Curves of manifolds: the boundary of basins, and the dashed unstable ones. */
 export function manifold(drawn, places, isStable) {
   drawn.setLineDash(isStable ? [] : [7, 3, 1.5, 3]);
-  [drawn.strokeStyle, drawn.lineWidth, drawn.lineJoin] = [INK, isStable ? 1.4 : 1.2, "round"];
-  drawn.beginPath();
-  places.forEach((at, i) => drawn[i ? "lineTo" : "moveTo"](...at));
-  drawn.stroke();
+  drawn.lineJoin = "round";
+  for (const [width, tone] of [[3, "#ffffffa0"], [1.3, INK]]) {
+    [drawn.lineWidth, drawn.strokeStyle] = [width, tone];
+    drawn.beginPath();
+    places.forEach((at, i) => drawn[i ? "lineTo" : "moveTo"](...at));
+    drawn.stroke();
+  }
   drawn.setLineDash([]);
 }
 

@@ -143,7 +143,7 @@ function showLine() {
 function showBasin() {
   const coordinates = view.coordinates(view.text("basin"));
   by("basin-place").hidden = !coordinates;
-  by("basin-empty").hidden = !!coordinates;
+  by("basin-empty").hidden = !!coordinates || by("attractors").childElementCount > 0;
   if (!coordinates) return page.basin.stop();
   return page.basin.show(coordinates, view.numbers("starts", 4), page.motions.words(coordinates));
 }
@@ -183,7 +183,7 @@ async function changed(keys) {
   const views = has("at") ? [showMotion()] : [];
   try {
     if (page.map) await mapChanged(has);
-    if (page.diagram && has(...diagram.KEYS)) views.push(page.diagram.show());
+    if (page.diagram && has("at", ...diagram.KEYS)) views.push(page.diagram.show());
     if (has("pins")) views.push(showPins());
     if (has("same")) page.motions.scale(by("same-switch").checked = view.text("same") === "1");
     if (has("line", "start", ...page.choices.keys())) views.push(showLine());

@@ -158,10 +158,7 @@ fn router(shared: Shared) -> Router {
         .route("/api/map", of_file(readings, map::map))
         .route("/api/curves", of_file(readings, map::curves))
         .route("/api/trade-off", of_file(readings, map::trade_off))
-        .route(
-            "/api/motion",
-            of_file(motions, |it, asked| Ok(json(&Clicked::of(it, asked)?.whole()?))),
-        )
+        .route("/api/motion", of_file(motions, motion::motion))
         .route("/api/click", get(click))
         .route("/api/draws", of_file(readings, |it, asked| Ok(json(&draws::draws(it, asked)?))))
         .route("/api/diagram", of_file(readings, stored_diagram::diagram))

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use axum::response::Response;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::answer::Refusal;
+use super::answer::{Refusal, json as json_answer};
 use super::asked::Asked;
 use super::computations::{BUDGET, MOTION_BUDGET};
 use super::explored::{Explored, Kept, Near};
@@ -33,7 +34,7 @@ const PER_CYCLE: u32 = 400;
 
 /// What is told of a motion.
 #[derive(Serialize)]
-pub struct Told {
+struct Told {
     /// What `capsulemap simulate --json` prints of its case.
     simulate: Value,
     /// What the numbers do not say by themselves.
@@ -63,6 +64,16 @@ struct History {
     t: Vec<f64>,
     /// The signals by their names; those are missing that motions with these parameters do not have.
     signals: BTreeMap<&'static str, Vec<f32>>,
+}
+
+/// The case that is asked for: what `capsulemap simulate --json` prints of it, its remarks, the command, and the histories of
+/// what it settles to.
+///
+/// Fails if a coordinate is out of its bounds, or it takes longer than a click may.
+pub fn motion(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
+    let clicked = Clicked::of(explored, asked)?;
+    let early = clicked.early();
+    Ok(json_answer(&clicked.told(early)?))
 }
 
 /// A case that was clicked.
@@ -119,15 +130,9 @@ impl Clicked {
         history(&self.near.case, from, MOST_SHOWN, self.protocol.tolerance)
     }
 
-    /// What is told of the case: what `capsulemap simulate --json` prints of it, its remarks, the command, and the histories of what it
-    /// settles to.
+    /// What is told of the case: the histories are those that are `early`, if they are there.
     ///
     /// Fails if it takes longer than a click may.
-    pub fn whole(self) -> Result<Told, Refusal> {
-        let early = self.early();
-        self.told(early)
-    }
-
     fn told(self, early: Option<History>) -> Result<Told, Refusal> {
         let Clicked { near, protocol, cycles, command, kept } = self;
         let case = &near.case;
