@@ -10,7 +10,7 @@ use super::explorer::Explorer;
 use super::program::{TWO_MOTIONS, WorkDir};
 
 /// Both sweeps through hysteresis, and a branch through it.
-fn hysteresis(work: &WorkDir) {
+pub(super) fn hysteresis(work: &WorkDir) {
     let axis =
         "[[axes]]\nname = \"omega\"\nfrom = \"110 rad/s\"\nto = \"180 rad/s\"\npoints = 36\n";
     let start = "[start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\"]\n";
@@ -22,7 +22,7 @@ fn hysteresis(work: &WorkDir) {
 }
 
 /// Basins with the manifolds of the saddle between them.
-fn basins(work: &WorkDir) {
+pub(super) fn basins(work: &WorkDir) {
     let axis = |name: &str, most: &str| {
         format!("[[axes]]\nname = \"{name}\"\nfrom = \"-{most}\"\nto = \"{most}\"\npoints = 40\n")
     };
