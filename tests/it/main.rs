@@ -32,6 +32,7 @@ mod exports;
 mod explore_answers;
 mod explore_branches;
 mod explore_changed;
+mod explore_clicks;
 mod explore_draws;
 mod explore_page;
 mod explore_private;

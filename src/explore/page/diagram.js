@@ -125,8 +125,8 @@ export class Diagram {
   }
 
   summary() {
-    const { x, panels, cases, branches, special, ramps } = this.data, some = (all, word) => (all.length ? [`${all.length} ${word}`] : []);
-    return `Bifurcation diagram of ${panels.map((it) => parted(it.label)[0]).join(", ")} over ${parted(x.label)[0]}: ${[...some(cases, "cases"), ...some(branches, "branches"), ...some(special, "special points"), ...some(ramps, "ramps")].join(", ")}`;
+    const { x, panels, cases, branches, special, ramps } = this.data, some = (all, one, more = `${one}s`) => (all.length ? [`${all.length} ${all.length === 1 ? one : more}`] : []);
+    return `Bifurcation diagram of ${panels.map((it) => parted(it.label)[0]).join(", ")} over ${parted(x.label)[0]}: ${[...some(cases, "case"), ...some(branches, "branch", "branches"), ...some(special, "special point"), ...some(ramps, "ramp")].join(", ")}`;
   }
 
   // The panels that are seen.
