@@ -45,7 +45,8 @@ fn a_click_is_told_in_parts_that_are_the_motion() {
         let parts = explorer.lines(&format!("/api/click?{asked}"));
         assert_eq!(parts.len(), 1 + kind, "case {case}");
         let whole = explorer.object(&format!("/api/motion?{asked}"));
-        assert_eq!(merged(&parts), whole, "case {case}");
+        // Not printed where it fails: it is long.
+        assert!(merged(&parts) == whole, "case {case}");
         assert!(parts[0]["history"]["t"].as_array().expect("times").len() > 100);
     }
     assert!(seen.iter().all(|count| *count >= 2), "{seen:?}");
@@ -59,7 +60,8 @@ fn indices_are_those_of_the_command() {
     let work = WorkDir::new();
     let axes = "[[axes]]\nname = \"omega\"\nfrom = \"70 rad/s\"\nto = \"86 rad/s\"\n\
                 [[axes]]\nname = \"p_d\"\nfrom = \"3.5 N\"\nto = \"4.5 N\"\n";
-    let study = format!("[draws]\nkind = \"saltelli\"\nbase_samples = 16\n{axes}");
+    let capsule = "[parameters]\nk2 = \"2.42 kN/m\"\ndelta = \"3.5 mm\"\n";
+    let study = format!("{capsule}[draws]\nkind = \"saltelli\"\nbase_samples = 16\n{axes}");
     work.put("s.toml", study);
     work.run(&["sweep", "s.toml", "--output", "s.h5", "--no-figures"]).done();
     let explorer = Explorer::new(&work, &["s.h5"]);

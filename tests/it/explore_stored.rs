@@ -309,7 +309,7 @@ fn limits_go_into_saved_figures() {
 fn ramps_of_the_file_are_shown_without_cases_along_them() {
     let work = WorkDir::new();
     let ramp = "omega = \"155 rad/s\"\n[start]\ny1 = \"0.3 m/s\"\n[[ramps]]\nname = \"up\"\nalong = \"omega\"\n\
-                from = \"160 rad/s\"\nto = \"168 rad/s\"\nrate = \"5 rad/s^2\"\n";
+                from = \"150 rad/s\"\nto = \"172 rad/s\"\nrate = \"5 rad/s^2\"\n";
     work.put("r.toml", format!("{TWO_MOTIONS}{ramp}"));
     work.run(&["sweep", "r.toml", "--output", "r.h5", "--no-figures"]).done();
     work.run(&["continue", "r.toml", "--output", "r.h5", "--no-figures"]).done();

@@ -86,7 +86,7 @@ function tables(choose) {
     made.push(element("h2", { textContent: "Attractors of the file" }), scrolled("Attractors of the file", ["attractor", "its motion", "motion", "share of starts", ...outputs.map((it) => it.label), "multipliers"], rows));
   }
   if (saddles.length) {
-    const rows = saddles.map((it, i) => [String(i + 1), it.between.map((one) => one + 1).join(" and "), String(it.period), multipliers(it.multipliers), short(it.residual, 2)]);
+    const rows = saddles.map((it, i) => [String(i + 1), it.between.map((one) => one + 1).join(" and "), String(it.period), multipliers(it.multipliers), short(it.misses, 2)]);
     made.push(element("h2", { textContent: "Saddles between the basins" }), scrolled("Saddles between the basins", ["saddle", "between the basins of", "period", "multipliers", "residual"], rows));
   } else if (attractors.length > 1) made.push(element("p", { className: "note", textContent: "The file has no saddle between the basins." }));
   const lines = [...counted(stable, "curve"), ...counted(unstable, "half")];

@@ -4,12 +4,11 @@ use serde_json::{Value, json};
 
 use super::explored::Explored;
 use super::map::SETTINGS;
-use super::sensitivity::is_design;
 use super::stored_diagram;
 use crate::description::{Chart, Description, Output};
 use crate::figure::shown_quantity;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT, section};
-use crate::store::{has_branches, provenance};
+use crate::store::{Design, has_branches, provenance};
 use crate::study::{Axis, Coordinate};
 
 /// The file in one object; values of axes in SI; `running` tells how far its run is.
@@ -31,7 +30,7 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "directions": directions.collect::<Vec<_>>(),
         "outputs": outputs_json(explored),
         "constants": constants_json(explored),
-        "is_design": is_design(explored),
+        "is_design": Design::of(frame).is_some(),
         "has_curves": has_branches(frame),
         "model": model_json(explored),
         "running": running,

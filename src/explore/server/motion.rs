@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use axum::response::Response;
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::answer::{Refusal, json as json_answer};
 use super::asked::Asked;
@@ -51,6 +51,12 @@ struct Told {
     exact: bool,
     /// Where it starts, in words.
     start: String,
+}
+
+/// What is told of a motion before it is judged.
+#[derive(Serialize)]
+struct Early<'a> {
+    history: &'a History,
 }
 
 /// Columns over time in SI; a screen shows fewer digits than theirs.
@@ -107,8 +113,11 @@ impl Clicked {
     pub fn compute(self, send: &dyn Fn(String) -> bool) {
         let early = self.early();
         let is_early = early.is_some();
-        if is_early && !send(json!({ "history": early }).to_string()) {
-            return;
+        if let Some(history) = &early {
+            let part = serde_json::to_string(&Early { history }).unwrap_or_default();
+            if !send(part) {
+                return;
+            }
         }
         match self.told(early) {
             Ok(told) => {

@@ -11,17 +11,12 @@ use crate::campaign::{NO_DESIGN, OutputSensitivity, Resampling, Sensitivity, Sob
 use crate::description::Output;
 use crate::store::Design;
 
-/// Whether the cases of a file are such a design.
-pub fn is_design(explored: &Explored) -> bool {
-    Design::of(explored.archive.frame()).is_some()
-}
-
 /// The indices, as `capsulemap sensitivity` finds them without options.
 ///
 /// Fails where the cases are no design.
 pub fn sensitivity(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
     asked.only(explored.model(), &[])?;
-    if !is_design(explored) {
+    if Design::of(explored.archive.frame()).is_none() {
         return Err(Refusal::unfit(NO_DESIGN));
     }
     let outputs = explored.model().key_outputs().filter(|it| explored.has(*it));

@@ -56,7 +56,7 @@ fn saddle_json(it: &BasinSaddle) -> Value {
     json!({
         "between": it.between,
         (PERIOD.name): it.period,
-        "residual": it.residual,
+        "misses": it.residual,
         "multipliers": it.multipliers,
         "points": it.points,
     })

@@ -134,7 +134,6 @@ fn branch_json(branch: &DiagramBranch) -> Value {
 fn special_json(special: &DiagramSpecial) -> Value {
     json!({
         "words": special.words,
-        "branch": special.branch,
         (PERIOD.name): special.period,
         "multipliers": special.multipliers,
         "x": special.x,
