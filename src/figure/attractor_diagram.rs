@@ -6,7 +6,7 @@ use super::attractors::{Attractors, Look};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::cloud::Dot;
-use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, has_points, paint};
+use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, Sorted, has_points, paint};
 use super::error::FigureError;
 use super::event_marks::EventMarks;
 use super::geometry::Rect;
@@ -58,6 +58,22 @@ pub fn draw(
         mark_zero(canvas, panel, output, view);
     });
     Ok(drawn.noting(marks.left_out()))
+}
+
+/// What the diagram shows over `x_name`, along which `attractors` are known, for a screen that draws it itself.
+pub fn sorted<'a>(
+    view: &View<'_>,
+    x_name: &'a str,
+    attractors: &Attractors<'a>,
+) -> Result<Sorted<'a>, FigureError> {
+    let looks = attractors.looks();
+    let (contents, marks) = contents(view, x_name, attractors, &looks)?;
+    let windows = match view.shows("coexistence") {
+        true => windows(&contents.cases.values, attractors),
+        false => Vec::new(),
+    };
+    let sorts = looks.into_iter().map(|look| (look.name(), attractors.colour(look))).collect();
+    Ok(Sorted { contents, sorts, windows, left_out: marks.left_out() })
 }
 
 /// What the diagram shows, and the events that its symbols stand for.

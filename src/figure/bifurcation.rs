@@ -7,7 +7,7 @@ use super::attractors::Attractors;
 use super::branch_lines::faded;
 use super::canvas::Drawn;
 use super::cloud::Dot;
-use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, has_points, paint};
+use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, Sorted, has_points, paint};
 use super::error::FigureError;
 use super::header::{self, Mark};
 use super::kind::{Kind, Names, Needs};
@@ -88,16 +88,37 @@ fn abscissa<'a>(view: &View<'a>) -> Result<&'a str, FigureError> {
 /// Draws the bifurcation diagram that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let x_name = abscissa(view)?;
+    match by_attractors(view, x_name)? {
+        Some(attractors) => attractor_diagram::draw(view, x_name, &attractors),
+        None => draw_branches(view, x_name),
+    }
+}
+
+/// What the diagram that `view` asks for shows, for a screen that draws it itself.
+pub fn sorted<'a>(view: &View<'a>) -> Result<Sorted<'a>, FigureError> {
+    let x_name = abscissa(view)?;
+    if let Some(attractors) = by_attractors(view, x_name)? {
+        return attractor_diagram::sorted(view, x_name, &attractors);
+    }
+    let mut branches = branches(view, x_name);
+    let contents = contents(view, x_name, &mut branches)?;
+    let sorts = branches.iter().map(|branch| (branch.sort().name, branch.colour)).collect();
+    Ok(Sorted { contents, sorts, windows: Vec::new(), left_out: None })
+}
+
+/// The attractors along the abscissa, where the diagram is drawn by them.
+fn by_attractors<'a>(
+    view: &View<'a>,
+    x_name: &'a str,
+) -> Result<Option<Attractors<'a>>, FigureError> {
     let by = view.drawing.colour_by.as_deref();
     match Attractors::along(view, x_name)? {
         // By direction, both sweeps are drawn, where they find the same attractor too.
-        Some(attractors) if by != Some(DIRECTION.name) => {
-            attractor_diagram::draw(view, x_name, &attractors)
-        }
+        Some(attractors) if by != Some(DIRECTION.name) => Ok(Some(attractors)),
         None if by == Some(ATTRACTOR.name) => {
             Err(view.unfit("`colour_by`: the results tell no attractors"))
         }
-        _ => draw_branches(view, x_name),
+        _ => Ok(None),
     }
 }
 

@@ -17,7 +17,7 @@ use super::view::View;
 #[derive(Default)]
 pub struct BranchLines {
     /// Lines of unstable orbits, then of stable ones.
-    lines: [Vec<Vec<(f64, f64)>>; 2],
+    pub lines: [Vec<Vec<(f64, f64)>>; 2],
     /// Special points.
     specials: Vec<(Symbol, (f64, f64))>,
 }

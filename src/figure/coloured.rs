@@ -108,7 +108,7 @@ fn axis(quantity: Quantity, cells: &Cells) -> MapAxis {
     }
 }
 
-fn key(paint: &Paint) -> MapColours {
+pub(super) fn key(paint: &Paint) -> MapColours {
     match paint {
         Paint::Numbers(Some(colours), ..) => bar(colours),
         Paint::Numbers(None, ..) => MapColours::Kinds(Vec::new()),

@@ -115,6 +115,18 @@ impl<'a> Contents<'a> {
     }
 }
 
+/// What a diagram shows, and what its points are.
+pub struct Sorted<'a> {
+    /// What it shows.
+    pub contents: Contents<'a>,
+    /// What the points of each sort are, and their colour where the request names none.
+    pub sorts: Vec<(String, RGBColor)>,
+    /// The ranges of the abscissa in which attractors coexist, in the unit of the figure.
+    pub windows: Vec<[f64; 2]>,
+    /// Which events are not marked, in words.
+    pub left_out: Option<String>,
+}
+
 /// How the points of a sort are drawn.
 pub struct Sort {
     /// What they are, in the data behind the figure.
@@ -171,6 +183,11 @@ impl<'a> Diagram<'a> {
             .map(|case| diagram.is_seen(case).then(|| cases.values[case / cases.per_value]));
         diagram.without_period = WithoutPeriod::of(view, &cases.free, outputs, abscissae)?;
         Ok(diagram)
+    }
+
+    /// What lies elsewhere, in words.
+    pub fn left_out(&self) -> Option<&str> {
+        self.left_out.as_deref()
     }
 
     /// Whether a case lies within the limits of the abscissa.

@@ -30,8 +30,10 @@ pub fn reads(model: &'static Description) -> Names {
 
 /// The curves in the units of the figure, those of each manifold apart by a point that is no number.
 pub struct Curves {
-    stable: Vec<(f64, f64)>,
-    unstable: Vec<(f64, f64)>,
+    /// The boundary.
+    pub stable: Vec<(f64, f64)>,
+    /// The unstable manifolds.
+    pub unstable: Vec<(f64, f64)>,
     /// Pairs of neighbouring starts that lead to two attractors, and those that have no curve beside them.
     crossings: [usize; 2],
     /// Whether the unstable manifolds lie in more dimensions than the plane has.

@@ -16,6 +16,7 @@ mod cells;
 mod case_panels;
 mod cloud;
 mod coloured;
+mod coloured_diagram;
 mod colour;
 mod contour;
 mod codim2_symbol;
@@ -44,6 +45,7 @@ mod optima_table;
 mod origin;
 mod outcome;
 mod output;
+mod over_basin;
 mod over_map;
 mod page;
 mod paint;
@@ -88,10 +90,17 @@ use std::path::PathBuf;
 pub use coloured::{
     ColouredMap, MapAxis, MapColours, ShownQuantity, coloured_map, label_colour, shown_quantity,
 };
+pub use coloured_diagram::{
+    ColouredDiagram, DiagramBranch, DiagramCase, DiagramPanel, DiagramRamp, DiagramSpecial,
+    coloured_diagram, coloured_diagram_variables,
+};
 pub use error::FigureError;
 pub use format::Format;
 pub use kind::Needs;
 pub use output::Place;
+pub use over_basin::{
+    BasinAttractor, BasinCurve, BasinSaddle, OverBasin, over_basin, over_basin_variables,
+};
 pub use over_map::{MapLine, MapPoint, OverMap, over_map, over_map_variables, special_symbol};
 pub use shown::{Measured, Shown};
 pub use trade_off_cells::{TradeOffAxis, TradeOffCells, trade_off_cells};
@@ -99,6 +108,7 @@ pub use trade_off_outputs::gain_of;
 
 use crate::description::Description;
 use crate::store::catalogue::{ATTRACTOR, Entry};
+use crate::store::dataset::Dataset;
 use crate::study::appearance::NATURAL;
 use crate::study::{Coordinate, Drawing, DrawingKind, Size, Sweep};
 use along_path::ByQuantities;
@@ -129,6 +139,17 @@ pub fn variables(drawing: &Drawing, model: &'static Description) -> BTreeSet<Str
     let of_attractors = [ATTRACTOR].into_iter().filter(|_| drawing.kind.keys().attractors);
     let is_natural = drawing.settings.values().any(|it| it.unit == Some(NATURAL));
     names.and(of_attractors).and(of_natural.filter(|_| is_natural)).into_set()
+}
+
+/// The names of the variables that [`diagram_axes`] reads.
+pub fn diagram_axes_variables() -> BTreeSet<String> {
+    varied::READS.iter().map(|entry| entry.name.to_owned()).collect()
+}
+
+/// The parameters beside the axes of the cases over which results have a diagram: those in which orbits were continued or motions
+/// followed along ramps.
+pub fn diagram_axes(dataset: &Dataset) -> Vec<String> {
+    varied::along(dataset).into_iter().map(str::to_owned).collect()
 }
 
 /// Draws `drawing` from the results in `shown` and writes `<folder>/<name>.<extension>` in each format of `place`,

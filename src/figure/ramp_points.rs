@@ -20,17 +20,20 @@ const COLOURS: [RGBColor; 3] = [GREEN, PURPLE, QUASI_PERIODIC];
 /// The ramps that a diagram shows.
 #[derive(Default)]
 pub struct RampPoints {
-    ramps: Vec<Shown>,
+    /// In the order of the study.
+    pub ramps: Vec<Shown>,
 }
 
 /// A ramp, in the units of the figure.
-struct Shown {
-    name: String,
-    colour: RGBColor,
+pub struct Shown {
+    /// Its name in the study.
+    pub name: String,
+    /// The colour of its points.
+    pub colour: RGBColor,
     /// Its points, by panel.
-    panels: Vec<Vec<(f64, f64)>>,
+    pub panels: Vec<Vec<(f64, f64)>>,
     /// The values of the parameter at which it jumps.
-    jumps: Vec<f64>,
+    pub jumps: Vec<f64>,
 }
 
 /// What is read of the ramps that are shown as their `outputs`.

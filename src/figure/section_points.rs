@@ -26,7 +26,7 @@ pub fn reads(model: &'static Description) -> Names {
 }
 
 /// The coordinates of the section points of attractors.
-fn of_attractors(model: &'static Description) -> Vec<Entry> {
+pub fn of_attractors(model: &'static Description) -> Vec<Entry> {
     section(model).into_iter().map(|entry| Place::Attractor.of(entry)).collect()
 }
 
@@ -62,7 +62,7 @@ fn is_finite(at: (f64, f64)) -> bool {
 
 /// Section points with these coordinates in the plane of the starts, in the units of the figure; none where the section is at
 /// another phase than the starts.
-fn in_plane(view: &View<'_>, plane: &Plane<'_>, coordinates: &[Entry]) -> Vec<(f64, f64)> {
+pub fn in_plane(view: &View<'_>, plane: &Plane<'_>, coordinates: &[Entry]) -> Vec<(f64, f64)> {
     if !is_at_starts(view) {
         return Vec::new();
     }
@@ -72,7 +72,7 @@ fn in_plane(view: &View<'_>, plane: &Plane<'_>, coordinates: &[Entry]) -> Vec<(f
 }
 
 /// Whether the section is at the phase of the starts.
-fn is_at_starts(view: &View<'_>) -> bool {
+pub fn is_at_starts(view: &View<'_>) -> bool {
     let phases: Vec<Option<f64>> = Coordinate::phases(view.model())
         .map(|it| view.parameter(it.name(), &[]).ok()?.first().copied())
         .collect();

@@ -28,7 +28,7 @@ pub type Placed = (Special, (f64, f64));
 
 impl Special {
     /// Its name in legends.
-    fn words(self) -> &'static str {
+    pub fn words(self) -> &'static str {
         match self {
             Special::One(symbol) => symbol.words,
             Special::Two(symbol) => symbol.words,

@@ -115,6 +115,8 @@ pub struct Stop {
     pub stable: Option<bool>,
     /// What happens there, at a special point.
     pub symbol: Option<Symbol>,
+    /// The row of the special point in its table.
+    pub special: Option<usize>,
 }
 
 /// A branch.
@@ -149,7 +151,8 @@ impl Rows {
         Rows { width, several, values: variable.values.to_real().into_iter().collect() }
     }
 
-    fn at(&self, place: usize) -> &[f64] {
+    /// The numbers at a place.
+    pub fn at(&self, place: usize) -> &[f64] {
         let begin = place * self.width;
         self.values.get(begin..begin + self.width).unwrap_or(&[])
     }
@@ -229,13 +232,14 @@ fn track(dataset: &Dataset, branch: usize, points: &Source, specials: &Source) -
     for place in points.branch.places(branch) {
         let stable = Some(stable.one(place) == 1.0);
         let values = turning.values(points, place);
-        stops.push(Stop { x: points.x.one(place), values, stable, symbol: None });
+        let x = points.x.one(place);
+        stops.push(Stop { x, values, stable, symbol: None, special: None });
         while let Some(special) = waiting.next_if(|&special| after.one(special) <= place as f64) {
             let values = turning.values(specials, special);
             let x = specials.x.one(special);
             let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(special));
             let symbol = flag.and_then(|(_, name)| Symbol::named(name));
-            stops.push(Stop { x, values, stable: None, symbol });
+            stops.push(Stop { x, values, stable: None, symbol, special: Some(special) });
         }
     }
     Track { stops }

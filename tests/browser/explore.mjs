@@ -1,6 +1,7 @@
 // Opens the page of `capsulemap explore` in Chromium, uses it as a person would, and prints what was found as one JSON object.
 //
 //   node explore.mjs check ADDRESS [FOLDER]    goes through every view in light and dark; screenshots go to FOLDER
+//   node explore.mjs open ADDRESS [FOLDER]     opens a file of one axis, of basins or of draws in all sizes, and clicks what it shows
 //   node explore.mjs measure ADDRESS CLICKS    times from click to painted motion, and from request to painted map [ms]
 
 import { createRequire } from "node:module";
@@ -230,9 +231,83 @@ async function measure(page) {
   return { clicks: told(clicks), maps: told(maps) };
 }
 
+/** What a file without a map of a parameter plane opens on, in all sizes and in both schemes; what a click and the keyboard tell there. */
+async function files(state) {
+  for (const scheme of ["light", "dark"]) for (const [width, height] of [[390, 844], [1280, 800], [1920, 1080]]) {
+    const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, storageState: state });
+    const page = await opened(context, new URL("/", address).href);
+    await page.waitForTimeout(500);
+    await look(page, scheme, `${width}-opened`);
+    const view = {};
+    const canvas = page.locator("#diagram, #map, #scatter").locator("visible=true").first();
+    view.shows = await canvas.getAttribute("aria-label");
+    if (await page.locator("#diagram").isVisible()) await diagram(page, view);
+    else if (await page.locator("#map").isVisible()) await basins(page, view);
+    else if (await page.locator("#indices button").isVisible()) {
+      await page.click("#indices button");
+      await page.waitForSelector("#indices table");
+      view.indices = await page.textContent("#indices");
+    }
+    for (const name of ["motion", "branches", "basin", "data"]) {
+      if (!await page.locator(`#${name}-tab`).isVisible()) continue;
+      await page.click(`#${name}-tab`);
+      await page.waitForTimeout(200);
+      await look(page, scheme, `${width}-${name}`);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      must(wide <= width, `at ${width} px the ${name} is wider than the window: ${wide}`);
+    }
+    found.views[`${scheme} ${width}`] = view;
+    await context.close();
+  }
+}
+
+/** Clicks a point of a diagram, goes to a special point, and takes a part of the axis. */
+async function diagram(page, view) {
+  const box = await page.locator("#diagram").boundingBox();
+  await page.mouse.click(box.x + 0.4 * box.width, box.y + 60);
+  await page.waitForSelector("#motions[data-milliseconds]");
+  view.command = await command(page, "capsulemap simulate");
+  view.figure = await command(page, "capsulemap figure");
+  await page.focus("#diagram");
+  await page.keyboard.press("s");
+  view.special = await page.textContent("#diagram-at");
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.7 * box.width, box.y + 60, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForFunction(() => location.hash.includes("range="));
+  view.part = await command(page, "capsulemap figure");
+  await page.keyboard.press("0");
+  await page.waitForFunction(() => !location.hash.includes("range="));
+}
+
+/** Tells what lies over basins, and shows the motion of an attractor. */
+async function basins(page, view) {
+  view.attractors = await page.locator("#attractors tbody tr").count();
+  view.figure = await command(page, "capsulemap figure");
+  const at = await page.evaluate(async () => {
+    const { page: shown } = await import("/page/shown.js");
+    return shown.map.place(shown.map.shown(...shown.map.marks.saddles[0].at));
+  });
+  const box = await page.locator("#map").boundingBox();
+  await page.mouse.move(box.x + at[0], box.y + at[1]);
+  view.saddle = await page.textContent("#tip");
+  await page.click("#attractors tbody button");
+  await page.waitForSelector("#motions[data-milliseconds]");
+  view.command = await command(page, "capsulemap simulate");
+  // A click into the tools takes what lies over the basins away, another brings it back.
+  await page.click("#curves-switch", { force: true });
+  await page.waitForFunction(() => location.hash.includes("bare=1"));
+  view.bare = await page.evaluate(async () => (await import("/page/shown.js")).page.map.marks.saddles.length);
+  await page.click("#curves-switch", { force: true });
+}
+
 try {
   const first = await opened(opening, address);
-  if (task === "measure") {
+  if (task === "open") {
+    await files(await opening.storageState());
+    console.log(JSON.stringify(found));
+  } else if (task === "measure") {
     console.log(JSON.stringify(await measure(first)));
   } else {
     const state = await opening.storageState();

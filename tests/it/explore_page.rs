@@ -5,6 +5,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
+use super::explore_stored::{basins, hysteresis};
 use super::explorer::{Explorer, coarse_overview};
 use super::program::WorkDir;
 use super::store::say;
@@ -18,12 +19,12 @@ pub fn has_browser() -> bool {
     has
 }
 
-/// What a person finds on the page of `explorer`.
-fn found(explorer: &Explorer) -> Value {
+/// What a person finds on the page of `explorer` in a task.
+fn found(explorer: &Explorer, task: &str) -> Value {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/browser/explore.mjs");
     let address = format!("http://127.0.0.1:{}/open?token={}", explorer.port, explorer.token);
     let mut node = Command::new("node");
-    node.arg(script).args(["check", &address]);
+    node.arg(script).args([task, &address]);
     if let Ok(folder) = std::env::var("CAPSULEMAP_KEEP") {
         node.arg(folder);
     }
@@ -45,7 +46,7 @@ fn a_person_clicks_compares_and_hands_over() {
     work.put("map.toml", coarse_overview([13, 41]));
     work.run(&["sweep", "map.toml", "--output", "map.h5", "--no-figures"]).done();
     let explorer = Explorer::unopened(&work, &["map.h5"]);
-    let found = found(&explorer);
+    let found = found(&explorer, "check");
 
     // Nothing is asked of anybody else, nothing is said on the console, nothing serious is found by axe-core.
     let own = format!("http://127.0.0.1:{}/", explorer.port);
@@ -85,6 +86,47 @@ fn a_person_clicks_compares_and_hands_over() {
             let file = format!("{scheme}-{study}.toml");
             work.put(&file, text(&view[study]));
             work.run(&["sweep", &file, "--dry-run"]).done();
+        }
+    }
+}
+
+/// Files that have no map of parameters open on their diagram, their basins or their draws; nothing of it is wider than the window, and
+/// axe-core finds nothing serious.
+#[test]
+fn files_open_on_what_they_are() {
+    if !has_browser() {
+        return;
+    }
+    let work = WorkDir::new();
+    hysteresis(&work);
+    basins(&work);
+    for file in ["s.h5", "b.h5"] {
+        let found = found(&Explorer::unopened(&work, &[file]), "open");
+        assert_eq!(found["console"], serde_json::json!([]), "{file}");
+        assert_eq!(found["axe"], serde_json::json!([]), "{file}");
+        let views = found["views"].as_object().expect("views");
+        assert_eq!(views.len(), 6, "{file}");
+        for (size, view) in views {
+            for name in ["figure", "part"].into_iter().filter(|it| view.get(it).is_some()) {
+                let figure = text(&view[name]).strip_prefix("capsulemap").expect("a command");
+                let place = format!("{}-{name}", size.replace(' ', "-"));
+                work.shell(&format!("\"$0\" {figure} --name {place} --formats svg --overwrite"))
+                    .done();
+            }
+            assert!(text(&view["command"]).starts_with("capsulemap simulate"), "{view}");
+            match file {
+                "s.h5" => {
+                    assert!(text(&view["shows"]).contains("72 cases"), "{view}");
+                    assert!(text(&view["special"]).contains("multipliers"), "{view}");
+                    assert!(text(&view["part"]).contains("--limits"), "{view}");
+                }
+                _ => {
+                    assert_eq!(view["attractors"], 3, "two attractors and a saddle: {view}");
+                    assert!(text(&view["saddle"]).starts_with("saddle 0"), "{view}");
+                    assert!(text(&view["figure"]).contains("--kind basin"), "{view}");
+                    assert_eq!(view["bare"], 0, "{view}");
+                }
+            }
         }
     }
 }

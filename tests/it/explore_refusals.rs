@@ -101,6 +101,23 @@ const HOSTILE: &[(&str, &[u16])] = &[
         "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\nContent-Length: -1\r\n",
         &[400],
     ),
+    // Names of what is drawn that are none, or lead out.
+    (
+        "GET /api/diagram?x=../../etc/passwd HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n",
+        &[400],
+    ),
+    (
+        "GET /api/stored-basin?x=%00&y=%0d%0aSet-Cookie:x HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n",
+        &[400],
+    ),
+    (
+        "GET /api/figure?kind=map&x=omega&y=p_d&limits-x=1e999,-1e999&format=svg HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n",
+        &[400],
+    ),
+    (
+        "GET /api/sensitivity?of=%ff HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n",
+        &[400],
+    ),
     // What is no HTTP.
     ("GET /api/file HTTP/9.9\r\nHost: 127.0.0.1:{port}\r\n", &[400, 505]),
     ("\u{0}\u{1}\u{2}\r\n", &[400]),

@@ -180,7 +180,7 @@ export class Basin {
     const named = (text, colour) => element("span", {}, swatch(colour), text);
     const rows = attractors.map((it) => {
       const period = it.outcome === "periodic" ? `periodic, period ${it.period}` : it.outcome;
-      return [named(String(it.label + 1), it.colour), period, shown(it[model.main_output.name], model.main_output), part(count(it.label))];
+      return [named(String(it.label), it.colour), period, shown(it[model.main_output.name], model.main_output), part(count(it.label))];
     });
     const known = new Set(attractors.map((it) => it.label)), others = labels.filter((it) => !known.has(it)).length;
     if (others) rows.push([named("none", unknown || UNDECIDED), "undecided", "–", part(others)]);
@@ -199,13 +199,13 @@ export class Basin {
     const { x, y } = this.data, label = this.last.labels[at.number], it = this.last.attractors.find((one) => one.label === label);
     const rows = [x, y].map((axis, i) => tip.pair(axis.label, short(at.cell[i] * axis.factor)));
     if (it) rows.push(tip.pair(model.main_output.label, shown(it[model.main_output.name], model.main_output)));
-    tip.show(event, { head: it ? `attractor ${label + 1}` : "undecided", colour: `rgb(${it?.colour ?? UNDECIDED})`, rows });
+    tip.show(event, { head: it ? `attractor ${label}` : "undecided", colour: `rgb(${it?.colour ?? UNDECIDED})`, rows });
   }
 
   words(at) {
     const { x, y } = this.data, label = this.last.labels[at.number], it = this.last.attractors.find((one) => one.label === label);
     const where = `${said(x.label, at.cell[0] * x.factor)}, ${said(y.label, at.cell[1] * y.factor)}`;
-    return `${where}: ${it ? `attractor ${label + 1}` : "undecided"}`;
+    return `${where}: ${it ? `attractor ${label}` : "undecided"}`;
   }
 
   /** Puts the mark at the start of a motion, if it is one of these basins. */

@@ -1,7 +1,7 @@
 // Special points and branches over the map, with their legend and tables.
 
 import { element, folded } from "./element.js";
-import { entry, rimmed } from "./marks.js";
+import { rimmed } from "./marks.js";
 import { short } from "./ticks.js";
 
 // The colour of a curve or a point; black where it has none of its own.
@@ -34,13 +34,13 @@ function shape(words) {
   return found ? found[1] : (drawn, [x, y], r) => drawn.rect(x - r * 0.8, y - r * 0.8, 1.6 * r, 1.6 * r);
 }
 
-/** Draws a special point, by its words and colour. */
-export function point(drawn, at, it, radius = 5) {
+/** Draws a special point, by its words, in its own colours or in others. */
+export function point(drawn, at, it, radius = 5, inside = ink(it), around = rim(it)) {
   drawn.beginPath();
   shape(it.words)(drawn, at, radius);
-  drawn.fillStyle = ink(it);
+  drawn.fillStyle = inside;
   drawn.fill();
-  [drawn.lineWidth, drawn.strokeStyle] = [1.2, rim(it)];
+  [drawn.lineWidth, drawn.strokeStyle] = [1.2, around];
   drawn.stroke();
 }
 
@@ -55,9 +55,12 @@ function curve(drawn, places, it) {
 // The sequence of events changes at many points: other symbols lie over those, and folds and period doublings over all.
 const order = ({ words }) => (/fold|period doubling/.test(words) ? 2 : /event/.test(words) ? 0 : 1);
 
+/** Special points in the order in which they are drawn. */
+export const ordered = (points) => [...points].sort((a, b) => order(a) - order(b));
+
 /** What draws curves and points over a map: `to` takes places in the units shown, and `put` draws at one that is seen. */
 export const layer = ({ lines, points }) => {
-  const sorted = [...points].sort((a, b) => order(a) - order(b));
+  const sorted = ordered(points);
   return {
     lines: (drawn, to) => lines.forEach((it) => curve(drawn, it.points.map(([x, y]) => to(x, y)), it)),
     points: (drawn, put) => sorted.forEach((it) => put(...it.at, (_, at) => point(drawn, at, it))),
@@ -73,8 +76,8 @@ export function seen({ lines, points }, map) {
 // One of each kind, by its words, colour and dashes.
 const kinds = (all) => [...new Map(all.map((it) => [JSON.stringify([it.words, it.colour, it.dash]), it])).values()];
 
-/** The entries of the legend of the map. */
-export function entries({ lines, points }) {
+/** The entries of the legend of the map, as `entry` makes them. */
+export function entries({ lines, points }, entry) {
   return [
     ...kinds(lines).map((it) => entry(it.words, (drawn, [x, y]) => curve(drawn, [[x - 12, y], [x + 12, y]], it))),
     ...kinds(points).map((it) => entry(it.words, (drawn, at) => point(drawn, at, it))),

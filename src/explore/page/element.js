@@ -33,11 +33,11 @@ export function select(name, options, value, changed) {
   return made;
 }
 
-/** The parts of a label: its words, and whether each is an index, as that of k2. Units have none. */
+/** The parts of a label: its words, and whether each is an index, as that of k2, unlike the words "as" and "is". Units have none. */
 export function runs(label) {
   const end = label.lastIndexOf(" (");
   const [words, unit] = end < 0 ? [label, ""] : [label.slice(0, end), label.slice(end)];
-  const parts = words.split(/(?<![\p{L}\d])([a-zA-Zμ])([ds12])(?![\p{L}\d])/u);
+  const parts = words.split(/(?<![\p{L}\d])(?![ai]s)([a-zA-Zμ])([ds12])(?![\p{L}\d])/u);
   const all = parts.map((text, i) => [text, i % 3 === 2]);
   return [...all, [squared(unit), false]].filter(([text]) => text);
 }

@@ -1,6 +1,7 @@
 // The commands of the figures of the map and of the trade-off, and their saving.
 
 import * as colouring from "./colouring.js";
+import { isBasin, isShown } from "./attractors.js";
 import { by } from "./element.js";
 import { handOver, quoted, save } from "./keep.js";
 import { page, price } from "./shown.js";
@@ -30,18 +31,31 @@ function colours(of) {
   return page.map.data.key.kinds ? "" : parts.filter((it) => it).join("");
 }
 
-/** Names what is saved: figures that are saved here show the whole map. */
+// The same for a figure that is saved here.
+function ends() {
+  const { map } = page, { x, y } = map.data;
+  if (!map.window) return {};
+  const [across, up] = [x, y].map((axis, i) => map.window[i].map((share) => Number(map.value(axis, share).toPrecision(8))).join(","));
+  return { "limits-x": across, "limits-y": up };
+}
+
+/** Names what is saved: the part of the map that is seen. */
 export function nameSaving() {
   for (const format of ["pdf", "svg"]) {
-    const it = by(`${format}-button`), words = `Save ${page.map.window ? "whole " : ""}${it.dataset.words}`;
+    const it = by(`${format}-button`), words = `Save ${page.map.window ? "this part of the " : ""}${it.dataset.words}`;
     Object.assign(it, { ariaLabel: words, title: words });
   }
 }
 
+// Basins by their attractors have a figure of their own, with the marks over them.
+const kind = () => (isBasin(page.file) && page.choices.chosen().of === "attractor" && isShown() ? "basin" : "map");
+
 /** Saves the map as it is asked for. */
 export function saveMap(format, pressed) {
   const curves = page.curves ? { curves: 1 } : {};
-  return save({ kind: "map", ...page.choices.asked(), ...curves, ...colouring.saved(page.file) }, format, pressed);
+  const { of, ...plane } = page.choices.asked();
+  const asked = kind() === "basin" ? { kind: "basin", stored: 1, ...plane } : { kind: "map", of, ...plane, ...curves, ...colouring.saved(page.file) };
+  return save({ ...asked, ...ends() }, format, pressed);
 }
 
 /** Hands the commands of the map and of the trade-off over. */
@@ -49,6 +63,7 @@ export function handMaps() {
   const { file, choices } = page, { of, x, y } = choices.chosen(), { sweep } = choices.sweep();
   const places = Object.entries(choices.held()).map(([name, value]) => ` --at ${name}=${value}`).join("") + (sweep ? ` --sweep ${sweep}` : "");
   const figure = (kind, more) => `capsulemap figure ${quoted(file.file)} --kind ${kind} ${more}${places}`;
-  handOver("map", "Figure of the map", figure("map", `--of ${of} --x ${x} --y ${y}${page.curves ? " --curves" : ""}${colours(of)}${limits()}`));
+  if (kind() === "basin") handOver("map", "Figure of the basins", figure("basin", `--x ${x} --y ${y}${limits()}`));
+  else handOver("map", "Figure of the map", figure("map", `--of ${of} --x ${x} --y ${y}${page.curves ? " --curves" : ""}${colours(of)}${limits()}`));
   handOver("trade-off", "Figure of the trade-off", price() && sweep !== "difference" && figure("trade-off", `--of ${price()}`));
 }

@@ -5,7 +5,7 @@ import { button, by, element, fault, say } from "./element.js";
 
 const entries = new Map();
 /** The order in which the views are listed. */
-const ORDER = ["map", "trade-off", "motion", "pin-a", "pin-b", "line", "basin"];
+const ORDER = ["map", "trade-off", "motion", "pin-a", "pin-b", "line", "basin", "indices"];
 
 /** A text as an argument of a shell. */
 export const quoted = (text) => (/^[\w.,=:/+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);

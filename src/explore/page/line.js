@@ -81,7 +81,6 @@ export class Line {
       await ask.lines("/api/line", this.pairs(), (it) => this.take(it), running.signal);
       this.task.end();
       this.finish();
-      this.on.finished();
     } catch (it) {
       if (it.name === "AbortError") return;
       this.task.end(false);

@@ -1,9 +1,9 @@
 // The map: its cells, the marks over them, and the key of its colours.
 
 import { hatch } from "./cells.js";
-import { parted } from "./element.js";
-import { cross, cursor, dot, dots, front, letter, line, rectangle, sectionPoint } from "./marks.js";
-import { colours, room, upward } from "./plot.js";
+import { element, parted } from "./element.js";
+import { cross, cursor, dot, dots, front, letter, line, manifold, rectangle, saddle, sectionPoint } from "./marks.js";
+import { colours, room, sizeOf, upward } from "./plot.js";
 import { Plane } from "./plane.js";
 import { numbers, share } from "./scale.js";
 import { result, short } from "./ticks.js";
@@ -14,7 +14,7 @@ const SWATCH = 12;
 export class CellMap extends Plane {
   constructor(canvas, on) {
     super(canvas, on);
-    this.marks = { pins: [], line: null, rectangle: null, fronts: {}, curves: null, spot: null, attractors: [] };
+    this.marks = { pins: [], line: null, rectangle: null, fronts: {}, curves: null, spot: null, attractors: [], saddles: [], manifolds: null };
   }
 
   /** Shows other cells; the mark and what is seen stay if the axes are the same. */
@@ -32,7 +32,7 @@ export class CellMap extends Plane {
   }
 
   area() {
-    const area = room(this.canvas.getBoundingClientRect());
+    const area = room(sizeOf(this.canvas));
     return { ...area, right: Math.max(area.right + 18 - (this.keyRoom || 0), area.left + 60) };
   }
 
@@ -61,6 +61,7 @@ export class CellMap extends Plane {
   over(drawn, to) {
     const { marks } = this, place = (point) => to(this.shares(point));
     marks.curves?.lines(drawn, (x, y) => to(this.shown(x, y)));
+    for (const kind of ["unstable", "stable"]) for (const { points } of marks.manifolds?.[kind] ?? []) manifold(drawn, points.map((it) => to(this.shown(...it))), kind === "stable");
     if (marks.rectangle) rectangle(drawn, marks.rectangle.map(place));
     // The line whose end is moved is drawn where it would be.
     if (marks.line && this.gesture?.grip === undefined) line(drawn, marks.line.map(place));
@@ -69,11 +70,23 @@ export class CellMap extends Plane {
     ({ line, rectangle })[this.gesture.kind](drawn, this.gesture.grip === 0 ? both.reverse() : both);
   }
 
+  /** The section point of an attractor or of a saddle under the pointer of an event, if it is so near. */
+  met({ clientX, clientY }, near) {
+    const box = this.canvas.getBoundingClientRect(), area = this.area(), { attractors, saddles } = this.marks;
+    let [best, away] = [null, near];
+    for (const [kind, all] of [["attractor", attractors], ["saddle", saddles]]) for (const it of all) {
+      const [x, y] = this.place(this.shown(...it.at), area), far = Math.hypot(x - clientX + box.left, y - clientY + box.top);
+      if (far <= away) [best, away] = [{ ...it, kind }, far];
+    }
+    return best;
+  }
+
   // Marks at the edge of the map are not cut off.
   above(drawn, put) {
     const { marks } = this, at = (point, mark) => put(this.shares(point), mark);
     marks.curves?.points(drawn, (x, y, mark) => put(this.shown(x, y), mark));
-    marks.attractors.forEach(({ at: place, colour }) => at(place, (drawn, to) => sectionPoint(drawn, to, `rgb(${colour})`)));
+    marks.attractors.forEach(({ at: place, colour }) => put(this.shown(...place), (drawn, to) => sectionPoint(drawn, to, `rgb(${colour})`)));
+    marks.saddles.forEach(({ at: place }) => put(this.shown(...place), saddle));
     this.drawFronts(drawn, at);
     marks.pins.forEach(({ point, name }) => at(point, (drawn, place) => letter(drawn, place, name)));
     if (marks.spot) at(marks.spot, (drawn, place) => dot(drawn, place, colours().mark, 5));
@@ -94,7 +107,7 @@ export class CellMap extends Plane {
     const { key, told } = this.data, left = area.right + 14;
     if (key.kinds) kinds(drawn, area, left, this.data);
     else bar(drawn, area, left, key);
-    if (!key.kinds) upward(drawn, told, this.canvas.getBoundingClientRect().width - 10, (area.top + area.bottom) / 2);
+    if (!key.kinds) upward(drawn, told, sizeOf(this.canvas).width - 10, (area.top + area.bottom) / 2);
   }
 }
 
@@ -130,12 +143,21 @@ function kinds(drawn, area, left, { key, values }) {
   });
 }
 
+/** The colours of bars as pictures one pixel wide, from above. */
+const bars = new WeakMap();
+function picture(key) {
+  if (!bars.has(key)) {
+    const count = key.colours.length, made = element("canvas", { width: 1, height: count }), image = new ImageData(1, count);
+    key.colours.forEach((rgb, i) => image.data.set([...rgb, 255], 4 * (count - 1 - i)));
+    made.getContext("2d").putImageData(image, 0, 0);
+    bars.set(key, made);
+  }
+  return bars.get(key);
+}
+
 function bar(drawn, area, left, key) {
-  const height = area.bottom - area.top, count = key.colours.length, { ink, faint } = colours();
-  key.colours.forEach((rgb, i) => {
-    drawn.fillStyle = `rgb(${rgb})`;
-    drawn.fillRect(left, area.bottom - (i + 1) * height / count, SWATCH, height / count + 0.6);
-  });
+  const height = area.bottom - area.top, { ink, faint } = colours();
+  drawn.drawImage(picture(key), left, area.top, SWATCH, height);
   drawn.strokeStyle = faint;
   drawn.strokeRect(left, area.top, SWATCH, height);
   drawn.fillStyle = ink;

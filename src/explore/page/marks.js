@@ -74,6 +74,25 @@ export function sectionPoint(drawn, place, shade) {
   dot(drawn, place, shade, 3.5);
 }
 
+/** A section point of a saddle: a ring, as it belongs to no basin. */
+export function saddle(drawn, place) {
+  dot(drawn, place, RIM, 6);
+  rimmed(drawn, () => drawn.arc(...place, 4.5, 0, 2 * Math.PI), INK, 2);
+}
+
+/** Curves of manifolds: the boundary of basins, and the dashed unstable ones. */
+export function manifold(drawn, places, isStable) {
+  drawn.setLineDash(isStable ? [] : [7, 3, 1.5, 3]);
+  drawn.lineJoin = "round";
+  for (const [width, tone] of [[3, "#ffffffa0"], [1.3, INK]]) {
+    [drawn.lineWidth, drawn.strokeStyle] = [width, tone];
+    drawn.beginPath();
+    places.forEach((at, i) => drawn[i ? "lineTo" : "moveTo"](...at));
+    drawn.stroke();
+  }
+  drawn.setLineDash([]);
+}
+
 /** Dots that are more than this have no rims and are smaller: rims would hide what lies under them. */
 const MANY = 60;
 

@@ -196,7 +196,7 @@ function drawPortrait(canvas, { history, portrait: points }, scales) {
 
 function drawSection(canvas, it, scales) {
   const made = context(canvas);
-  if (!made.width) return;
+  if (!made.width || it.isEarly) return;
   const { drawn } = made, area = room(made), [xs, ys] = section(it), [x, y] = model.section;
   const place = frame(drawn, area, { range: scales.sx, label: x.label }, { range: scales.sy, label: y.label });
   drawn.fillStyle = colours().second;

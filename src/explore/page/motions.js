@@ -32,9 +32,17 @@ export class Motions {
     return [...words, ...more.filter((it) => it)].join(", ");
   }
 
-  async motion(coordinates, signal) {
+  async motion(coordinates, signal, early) {
     const key = written(coordinates);
-    if (!this.known.has(key)) this.known.set(key, { key, coordinates, it: await ask.object("/api/motion", asked(coordinates), signal) });
+    if (!this.known.has(key)) {
+      const it = {};
+      // Histories that come before the rest are drawn at once.
+      await ask.lines("/api/click", asked(coordinates), (part) => {
+        Object.assign(it, part, it.history && { history: it.history });
+        if (!it.simulate) early?.({ key, coordinates, it: { ...it } });
+      }, signal);
+      this.known.set(key, { key, coordinates, it });
+    }
     return this.known.get(key);
   }
 
@@ -45,7 +53,7 @@ export class Motions {
     const task = busy.begin("motion", "Motion");
     let motion;
     try {
-      motion = await this.motion(coordinates, signal);
+      motion = await this.motion(coordinates, signal, (it) => this.drawEarly(it));
     } catch (it) {
       motion = { key: written(coordinates), coordinates, failure: it.message };
     }
@@ -56,6 +64,15 @@ export class Motions {
     this.draw();
     say(motion.failure || `Motion at ${this.words(coordinates)}: ${summary(motion.it)}`);
     return true;
+  }
+
+  // The histories of the chosen motion, of which nothing else is known yet.
+  drawEarly(motion) {
+    if (this.pins.length) return;
+    const [panel] = this.panels;
+    this.place([panel.element]);
+    panel.early(motion, this.words(motion.coordinates));
+    this.on.drawn();
   }
 
   /** Shows no chosen motion. */
@@ -99,6 +116,9 @@ export class Motions {
     handOver("motion", "Chosen motion", this.current?.it?.command);
     LETTERS.forEach((name, i) => handOver(`pin-${name.toLowerCase()}`, `Pinned motion ${name}`, this.pins[i]?.it?.command));
   }
+
+  /** Tells what follows below the charts, when those are seen. */
+  finish() { this.panels.forEach((it) => it.finish()); }
 
   place(panels) {
     by("motion-section").classList.toggle("compare", this.pins.length > 0);

@@ -12,6 +12,13 @@ export function complex([re, im]) {
   return im === 0 ? short(re, 4) : `${short(re, 4)} ${im < 0 ? "−" : "+"} ${short(Math.abs(im), 4)} i`;
 }
 
+/** The multipliers of an orbit in words, pairs of conjugates as one. */
+export function multipliers(all) {
+  const isSecond = ([re, im], i) => im && all.slice(0, i).some(([a, b]) => a === re && b === -im);
+  const words = ([re, im]) => (im ? `${short(re, 4)} ± ${short(Math.abs(im), 4)} i` : complex([re, im]));
+  return all.filter((it, i) => !isSecond(it, i)).map(words).join("; ") || "none";
+}
+
 /** An output of an orbit with its standard error where that is above zero; nothing is below a rate that is minus infinity, as of a direction that is lost. */
 function withError(orbit, it, none) {
   const value = orbit[it.name], error = orbit[it.error];

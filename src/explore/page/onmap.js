@@ -1,5 +1,6 @@
 // What a person does on the map: cases that are chosen, values under the pointer, lines and rectangles.
 
+import * as attractors from "./attractors.js";
 import * as tip from "./tip.js";
 import * as view from "./view.js";
 import { brush } from "./brush.js";
@@ -12,7 +13,7 @@ import { prices } from "./tradeoff.js";
 
 /** Shows the motion of a case. */
 export function choose(coordinates) {
-  clicked.at = performance.now();
+  Object.assign(clicked, { at: performance.now(), seen: null });
   view.step({ at: view.written(coordinates), ...pane("motion") });
 }
 
@@ -26,7 +27,7 @@ export function hover(cell, isKey, event = null) {
   const point = () => (map.isExact ? ` (the point: ${axes().map((it, i) => said(it.label, cell.point[i] * it.factor)).join("; ")})` : "");
   const words = cell ? `${[said(map.data.told, map.told(cell)), ...here(cell.cell)].join("; ")}${point()}` : "\u00a0";
   by("told").replaceChildren(...marked(words));
-  if (cell && event) beside(cell, event); else tip.hide();
+  if (cell && event) { if (!attractors.beside(event)) beside(cell, event); } else tip.hide();
   if (cell && isKey) { say(words); legend(); }
   if (price()) tradeOff.mark(tradeOff.chosen, cell ? cell.number : null);
 }

@@ -21,9 +21,11 @@ export function wait(file, largest) {
   const how = { 0: file.draws?.length ? "Click a case for its motion, or compute one by its numbers." : "Compute a case by its numbers.", 1: "Click a value of the diagram for its motion, or compute a case by its numbers." }[file.axes.length];
   const most = button("Show the case with the largest value", largest);
   empty("motion-empty", "motion", how || "Click a cell of the map.", ...(hasMap && !isBasin(file) ? [most] : []));
-  empty("line-empty", "line", "A line over the map gives the bifurcation diagram along it, while it is computed.", button("Draw a line", draw));
+  const along = button("Compute along the whole axis", () => view.step({ line: whole(file), ...tabs.pane("line") }));
+  if (hasMap) empty("line-empty", "line", "A line over the map gives the bifurcation diagram along it, while it is computed.", button("Draw a line", draw));
+  else empty("line-empty", "line", "The diagram along the axis can be computed here, from either end and with other starts than the file has.", along);
   empty("basin-empty", "basin", "The basins at the parameters of a case: choose the case, then ask for them with Basin.");
-  empty("branches-empty", "special", "Branches of periodic orbits, stable or not: ask for them below a bifurcation diagram with “Follow branches”.");
+  empty("branches-empty", "special", "Branches of periodic orbits, stable or not: ask for them below the bifurcation diagram of a line with “Follow branches”.");
 }
 
 /** Lays the page out for the file; true where it has a map. */
@@ -37,23 +39,16 @@ export function lay(file) {
   for (const it of ["choices", "map-place"]) by(it).hidden = true;
   by("whole-place").hidden = false;
   tabs.remove("trade-off");
-  tabs.remove("line");
+  if (!file.axes.length) tabs.remove("line");
   by("form-place").open = true;
-  if (file.axes.length) {
-    // The diagram is what such a file is: it stands where other files have their map.
-    by("map-heading").textContent = "Diagram";
-    by("whole-place").append(by("line-section"));
-    const section = by("line-section");
-    for (const name of ["role", "tabindex"]) section.removeAttribute(name);
-    section.setAttribute("aria-labelledby", "line-heading");
-    section.hidden = false;
-    if (!view.text("line")) view.set({ line: whole(file) });
-  } else {
+  // The diagram is what such a file is: it stands where other files have their map.
+  if (file.diagrams.length) by("map-heading").textContent = "Diagram";
+  else {
     by("map-heading").textContent = "Cases";
     if (file.draws?.length) return false;
     by("whole-place").append(element("p", { className: "empty", textContent: `These are ${file.cases.toLocaleString("en")} cases without axes: compute a case by its numbers.` }));
   }
-  document.body.dataset.ready = "true";
+  if (!file.diagrams.length) document.body.dataset.ready = "true";
   return false;
 }
 

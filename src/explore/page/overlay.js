@@ -3,6 +3,7 @@
 import * as ask from "./ask.js";
 import * as curves from "./curves.js";
 import * as view from "./view.js";
+import { isBasin } from "./attractors.js";
 import { selection, told, within } from "./brush.js";
 import { by, said, say } from "./element.js";
 import { legend } from "./legend.js";
@@ -48,6 +49,7 @@ export function select() {
 
 /** Shows special points and branches over the map, if they are wanted. */
 export async function showCurves(signal) {
+  if (isBasin(page.file)) return;
   const isOn = view.text("curves") === "1" && page.file.has_curves;
   by("curves-switch").checked = isOn;
   by("curves-place").hidden = !isOn;
@@ -70,11 +72,13 @@ export function mark() {
   const { map, tradeOff, basin } = page, point = onMap(chosen());
   const place = point && map.shares(point), isOther = place && !place.every((it, i) => it === last?.[i]);
   // The mark of the keyboard follows the chosen case only where that changes.
+  const seen = JSON.stringify([map.chosen, map.mark, map.marks.pins, map.marks.line]);
   map.chosen = last = place;
   if (isOther || (place && !map.mark)) map.mark = place;
   const pinned = pins().map((it, i) => ({ point: onMap(it), name: "AB"[i] })).filter((it) => it.point);
   const line = ends()?.map((it) => axes().map((axis) => it[axis.name])) ?? null;
-  map.set({ pins: pinned, line });
+  // A case that was clicked is marked already.
+  if (JSON.stringify([place, map.mark, pinned, line]) !== seen) map.set({ pins: pinned, line });
   // A case with a start of its own may have another motion than the case of the file.
   const isOwn = Object.keys(chosen() || {}).some((name) => name.startsWith("start_") && !page.choices.axis(name));
   tradeOff.mark(isOwn ? null : cellOf(point));

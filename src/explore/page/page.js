@@ -4,6 +4,7 @@ import * as ask from "./ask.js";
 import * as attractors from "./attractors.js";
 import * as busy from "./busy.js";
 import * as colouring from "./colouring.js";
+import * as diagram from "./diagram.js";
 import * as divider from "./divider.js";
 import * as tabs from "./tabs.js";
 import * as view from "./view.js";
@@ -14,6 +15,7 @@ import { by, element, fault, marked } from "./element.js";
 import { facts } from "./facts.js";
 import { caseForm, fillForm, lineForm } from "./form.js";
 import { handMaps, nameSaving } from "./handed.js";
+import { Indices } from "./indices.js";
 import { decorate } from "./icons.js";
 import { quoted } from "./keep.js";
 import { legend } from "./legend.js";
@@ -39,13 +41,13 @@ async function showMap() {
   asking?.abort();
   const { signal } = asking = new AbortController(), begun = performance.now(), task = busy.begin("map", "Map");
   const asked = page.choices.asked(), cells = JSON.stringify({ ...asked, of: null });
-  const data = await ask.map(asked, signal).catch((it) => { task.end(false); throw it; }), came = performance.now();
+  const data = await attractors.tinted(asked, signal).catch((it) => { task.end(false); throw it; }), came = performance.now();
   // What lay over other cells is not over these.
   if (cells !== lying) { lying = null; bare(); }
   page.raw = data;
   paint();
   task.end();
-  attractors.find(data, chooseOnMap, signal).catch(fault);
+  attractors.show(choose);
   const now = performance.now();
   Object.assign(by("map").dataset, { milliseconds: (now - begun).toFixed(1), painted: (now - came).toFixed(1) });
   by("map").setAttribute("aria-label", `Map of ${data.told} over ${data.x.label} and ${data.y.label}, ${data.x.values.length} by ${data.y.values.length} cases`);
@@ -89,14 +91,24 @@ async function showMotion() {
   by("basin-button").disabled = !coordinates;
   offerSweep();
   if (!coordinates) { page.motions.clear(); return; }
-  const begun = clicked.at ?? performance.now();
-  clicked.at = null;
+  clicked.at ??= performance.now();
   if (!await page.motions.show(coordinates)) return;
   fillForm(page.file, coordinates);
+  drawn(true);
+}
+
+// Keeps how long it took from the click until the charts of the motion were seen, and tells it when all of the motion is told.
+function drawn(isWhole) {
   // The frame that shows the motion is painted before the next task.
   requestAnimationFrame(() => {
     const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => { by("motions").dataset.milliseconds = (performance.now() - begun).toFixed(1); };
+    port1.onmessage = () => {
+      clicked.seen ??= performance.now() - clicked.at;
+      if (!isWhole) return;
+      page.motions.finish();
+      by("motions").dataset.milliseconds = clicked.seen.toFixed(1);
+      Object.assign(clicked, { at: null, seen: null });
+    };
     port2.postMessage(0);
   });
 }
@@ -121,7 +133,7 @@ function showLine() {
   if (axes().length) fillLine(both?.map((it) => axes().map((axis) => it[axis.name])));
   if (!both) return line.stop();
   const [from, to] = both, start = view.text("start") || (file.inherits ? "inherit" : "afresh");
-  const along = map ? longer(map.data, from, to) : file.axes[0];
+  const along = map ? longer(map.data, from, to) : axes()[0];
   const fixed = Object.entries(from).filter(([name, value]) => to[name] === value);
   const where = page.motions.words({ ...(map ? page.choices.held() : {}), ...Object.fromEntries(fixed) });
   by("line-heading").replaceChildren(...marked(`Bifurcation diagram${map ? " along the line" : ""}${where ? `: ${where}` : ""}`));
@@ -131,7 +143,7 @@ function showLine() {
 function showBasin() {
   const coordinates = view.coordinates(view.text("basin"));
   by("basin-place").hidden = !coordinates;
-  by("basin-empty").hidden = !!coordinates;
+  by("basin-empty").hidden = !!coordinates || by("attractors").childElementCount > 0;
   if (!coordinates) return page.basin.stop();
   return page.basin.show(coordinates, view.numbers("starts", 4), page.motions.words(coordinates));
 }
@@ -156,6 +168,7 @@ async function mapChanged(has) {
   if (isOther) { page.choices.draw(); notice(); await showMap(); }
   else if (has("trade", "curves")) { await Promise.all([has("trade") && showTradeOff(), has("curves") && showCurves()]); mark(); handMaps(); }
   else if (has("brush")) select();
+  if (has("bare")) attractors.over();
   if (has(...colouring.KEYS) && !isOther) { paint(); handMaps(); }
   if (has("at", "line", "pins") && !isOther) mark();
 }
@@ -170,6 +183,7 @@ async function changed(keys) {
   const views = has("at") ? [showMotion()] : [];
   try {
     if (page.map) await mapChanged(has);
+    if (page.diagram && has("at", ...diagram.KEYS)) views.push(page.diagram.show());
     if (has("pins")) views.push(showPins());
     if (has("same")) page.motions.scale(by("same-switch").checked = view.text("same") === "1");
     if (has("line", "start", ...page.choices.keys())) views.push(showLine());
@@ -190,13 +204,11 @@ function pin(all) {
 function build(file) {
   page.file = file;
   page.choices = new Choices(file);
-  page.motions = new Motions(file, { pin: (it) => pin([...pins(), it]), unpin: (key) => pin(pins().filter((it) => view.written(it) !== key)) });
+  page.motions = new Motions(file, { drawn: () => drawn(false), pin: (it) => pin([...pins(), it]), unpin: (key) => pin(pins().filter((it) => view.written(it) !== key)) });
   page.basin = new Basin(by("basin-place"), { choose, range: (all) => view.step({ starts: all && all.join(",") }), shown: () => page.basin.mark(chosen()) });
   page.line = new Line(by("line-place"), {
     choose, start: (start) => view.step({ start }), spot: (it) => page.map?.set({ spot: it && axes().map((axis) => it[axis.name]) }),
     turn: () => view.step({ line: view.text("line").split("~").reverse().join("~") }),
-    // The branches that the file has are followed beside its own diagram.
-    finished: () => { if (!page.map && file.has_curves) page.line.branches.follow(); },
   });
   page.tradeOff = new TradeOff(by("trade-off-place"), prices(file), {
     price: (trade) => view.step({ trade, brush: selection()?.plane === "map" ? view.text("brush") : null }),
@@ -216,7 +228,7 @@ function build(file) {
 function describe() {
   const { file } = page;
   by("title").textContent = file.title;
-  by("about").textContent = `${file.file}: ${file.cases.toLocaleString("en")} cases; ${file.program}`;
+  by("about").textContent = `${file.file}: ${file.cases.toLocaleString("en")} case${file.cases === 1 ? "" : "s"}; ${file.program}`;
   by("about").title = by("about").textContent;
   by("study").textContent = file.study;
   // Tables that are open stay so while a run goes on.
@@ -244,7 +256,13 @@ async function open(file) {
     if (prices(file).length) tabs.turned("trade-off", () => turnToTradeOff(prices(file)));
     else tabs.remove("trade-off");
   }
+  if (file.diagrams.length) {
+    page.diagram = new diagram.Diagram(by("whole-place"), file, choose);
+    await page.diagram.show().catch(fault);
+    document.body.dataset.ready = "true";
+  }
   // Draws have no axes, and are shown over what was drawn.
+  if (file.is_design) new Indices(by("whole-place"), file);
   if (file.draws?.length) new Scatter(by("whole-place"), { choose }).show().then(() => { document.body.dataset.ready = "true"; }, fault);
   view.changed(changed);
   recoloured("legend", legend);

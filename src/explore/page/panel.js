@@ -8,6 +8,9 @@ import { keyNumbers, tables } from "./numbers.js";
 import { strip } from "./strip.js";
 import { asked } from "./view.js";
 
+/** The tables below the charts are there after so long at the latest [ms]. */
+const LATEST = 60;
+
 /** A motion in a few words. */
 export function summary({ simulate: { orbit } }) {
   return `${orbit.outcome === "periodic" ? `periodic, period ${orbit.period}` : orbit.outcome}, ${mainOutput(orbit[model.main_output.name])}`;
@@ -56,13 +59,32 @@ export class Panel {
     if (hasHistory) this.charts.show(it, scales); else this.charts.clear();
   }
 
+  /** Shows the histories of a motion of which nothing else is known yet. */
+  early(motion, words) {
+    this.heading.replaceChildren(...marked(words));
+    this.strip.replaceChildren(strip(null));
+    for (const it of [this.about, this.numbers, this.tables]) it.replaceChildren();
+    [this.note.hidden, this.saving.hidden] = [false, true];
+    this.charts.show({ ...motion.it, stroboscopic: [], portrait: [], isEarly: true }, null);
+  }
+
   tell({ it, failure, coordinates }) {
     const open = [...this.tables.children].map((details) => details.open);
     const failed = () => [element("p", { className: "failure", textContent: `The motion could not be computed: ${failure}` })];
     this.strip.replaceChildren(...(it ? [strip(it)] : []));
     this.about.replaceChildren(...(it ? about(it, coordinates) : failed()));
-    this.numbers.replaceChildren(...(it ? [keyNumbers([{ it, name: this.name }])] : []));
-    this.tables.replaceChildren(...(it ? tables(it, open) : []));
+    // The tables below the charts follow when those are seen.
+    this.rest = () => {
+      this.numbers.replaceChildren(...(it ? [keyNumbers([{ it, name: this.name }])] : []));
+      this.tables.replaceChildren(...(it ? tables(it, open) : []));
+    };
+    setTimeout(() => this.finish(), LATEST);
+  }
+
+  /** Tells the rest. */
+  finish() {
+    this.rest?.();
+    this.rest = null;
   }
 
   /** Sets what can be done: buttons as texts with what they do and their ids, or a note. */

@@ -1,7 +1,7 @@
 // A plane of cells that is moved and zoomed, with a mark for the keyboard; lines and rectangles are drawn over it.
 
 import { Cells } from "./cells.js";
-import { context, frame, redrawn, room, within } from "./plot.js";
+import { context, frame, redrawn, room, sizeOf, within } from "./plot.js";
 import { along, crosses } from "./snap.js";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
@@ -33,7 +33,7 @@ export class Plane {
   }
 
   /** The part of the canvas with the cells. */
-  area() { return room(this.canvas.getBoundingClientRect()); }
+  area() { return room(sizeOf(this.canvas)); }
 
   /** What is seen, in shares of the axes. */
   seen() { return this.window || [[0, 1], [0, 1]]; }

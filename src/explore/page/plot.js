@@ -28,15 +28,21 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
 /** Calls `draw` where the colours of the page change; `key` is an element, while it is there, or a name. */
 export const recoloured = (key, draw) => drawings.set(key, draw);
 
+/** The sizes of canvases as they were laid out last: to ask for one lays the page out, which takes longer than drawing. */
+const sizes = new WeakMap();
+
+/** The size of a canvas [CSS pixels]. */
+export const sizeOf = (canvas) => sizes.get(canvas) ?? canvas.getBoundingClientRect();
+
 /** Calls `draw` where the size of a canvas or the colours of the page change. */
 export function redrawn(canvas, draw) {
-  new ResizeObserver(draw).observe(canvas);
+  new ResizeObserver(([{ contentRect: { width, height } }]) => { sizes.set(canvas, { width, height }); draw(); }).observe(canvas);
   recoloured(canvas, draw);
 }
 
 /** A canvas with as many pixels as the screen has, and its context in the units of the page. */
 export function context(canvas) {
-  const { width, height } = canvas.getBoundingClientRect();
+  const { width, height } = sizeOf(canvas);
   const ratio = window.devicePixelRatio || 1;
   const [across, down] = [width, height].map((length) => Math.max(1, Math.round(length * ratio)));
   if (canvas.width !== across || canvas.height !== down) [canvas.width, canvas.height] = [across, down];
@@ -184,5 +190,6 @@ function upwards(drawn, area, y, place) {
     drawn.beginPath(); drawn.moveTo(area.left, at); drawn.lineTo(area.left - 4, at); drawn.stroke();
     if (!y.isBare) drawn.fillText(said.texts[i], area.left - 7, at);
   });
-  if (y.label) upward(drawn, counted(y.label, said), area.left - 61, (area.top + area.bottom) / 2, area.bottom - area.top + 2 * MARGIN);
+  if (y.isAbove) { drawn.textBaseline = "alphabetic"; words(drawn, counted(y.label, said), area.left, area.top - 6, "left", area.right - area.left); }
+  else if (y.label) upward(drawn, counted(y.label, said), area.left - 61, (area.top + area.bottom) / 2, area.bottom - area.top + 2 * MARGIN);
 }

@@ -4,12 +4,12 @@ import * as view from "./view.js";
 import { said } from "./element.js";
 import { prices } from "./tradeoff.js";
 
-/** The file and the views of it: `choices`, `map` (none where there are no two axes), `line`, `basin`, `tradeOff`, `motions`, the
+/** The file and the views of it: `choices`, `map` (none where there are no two axes), `diagram` (of other files), `line`, `basin`, `tradeOff`, `motions`, the
  * `curves` over the map, and the map as it came, in the usual colours (`raw`). */
-export const page = { file: null, choices: null, map: null, line: null, basin: null, tradeOff: null, motions: null, curves: null, raw: null };
+export const page = { file: null, choices: null, map: null, diagram: null, line: null, basin: null, tradeOff: null, motions: null, curves: null, raw: null };
 
-/** When the case was clicked whose motion is awaited; none where none is. */
-export const clicked = { at: null };
+/** When the case was clicked whose motion is awaited, and how long after that its charts were `seen` [ms]; none where none is. */
+export const clicked = { at: null, seen: null };
 
 /** Coordinates are the same if they differ by less than this, relative to their size. */
 const SAME = 1e-9;

@@ -22,9 +22,10 @@ function cell(name, value, unit = "", more = {}) {
   return element("div", more, element("dt", {}, ...marked(name)), number);
 }
 
-/** The strip of an orbit. */
-export function strip({ simulate: { orbit } }) {
-  const isPeriodic = orbit.outcome === "periodic";
+/** The strip of an orbit; of one that is not known yet, what is being found. */
+export function strip(motion) {
+  if (!motion) return element("dl", { className: "strip" }, cell("Motion", "…", "", { className: "outcome" }), ...chosen().map((it) => cell(parted(it.label)[0], "…")));
+  const { simulate: { orbit } } = motion, isPeriodic = orbit.outcome === "periodic";
   const outcome = cell("Motion", isPeriodic ? `period ${orbit.period}` : orbit.outcome, "", { className: `outcome ${isPeriodic ? "periodic" : "other"}` });
   const others = chosen().map((it) => {
     const [name] = parted(it.label), value = shown(orbit[it.name], it, DIGITS);

@@ -2,6 +2,7 @@
 
 import * as colouring from "./colouring.js";
 import * as view from "./view.js";
+import { isBasin } from "./attractors.js";
 import { by } from "./element.js";
 import { handMaps, nameSaving, saveMap } from "./handed.js";
 import { legend } from "./legend.js";
@@ -51,9 +52,16 @@ export function listenToMap() {
   pressed("out-button", () => map.zoom(1.25));
   pressed("whole-button", () => map.look());
   for (const format of ["pdf", "svg"]) pressed(`${format}-button`, (event) => saveMap(format, event.currentTarget));
-  ["curves", "exact"].forEach(switched);
+  switched("exact");
   by("brush-button").hidden = !prices(file).length;
-  by("curves-switch").parentElement.hidden = !file.has_curves;
+  if (isBasin(file)) {
+    // They are what such a file is about, and are shown unless they are taken away.
+    by("curves-switch").parentElement.title = "Attractors, saddles and manifolds of the file";
+    by("curves-switch").addEventListener("change", ({ target }) => view.step({ bare: target.checked ? null : 1 }));
+  } else {
+    switched("curves");
+    by("curves-switch").parentElement.hidden = !file.has_curves;
+  }
   colouring.listen();
 }
 

@@ -4,10 +4,11 @@ use serde_json::{Value, json};
 
 use super::explored::Explored;
 use super::map::SETTINGS;
+use super::stored_diagram;
 use crate::description::{Chart, Description, Output};
 use crate::figure::shown_quantity;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT, section};
-use crate::store::{has_branches, provenance};
+use crate::store::{Design, has_branches, provenance};
 use crate::study::{Axis, Coordinate};
 
 /// The file in one object; values of axes in SI; `running` tells how far its run is.
@@ -16,6 +17,8 @@ pub fn described(explored: &Explored, running: Value) -> Value {
     let frame = archive.frame();
     let directions = frame.coordinate(DIRECTION.name).map(|it| &it.flags);
     let directions = directions.into_iter().flatten().map(|(_, name)| name.clone());
+    // What cannot be read is no fault of the other facts.
+    let diagrams = stored_diagram::axes(explored).unwrap_or_default();
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     json!({
         "title": if study.title.is_empty() { stem.as_ref() } else { study.title.as_str() },
@@ -23,9 +26,11 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "cases": study.cases(),
         "axes": study.axes().iter().map(|it| axis_json(explored, it)).collect::<Vec<_>>(),
         "draws": explored.ranges().iter().map(|it| shown_json(explored, it.coordinate.name())).collect::<Vec<_>>(),
+        "diagrams": all_shown_json(explored, diagrams.iter().map(String::as_str)),
         "directions": directions.collect::<Vec<_>>(),
         "outputs": outputs_json(explored),
         "constants": constants_json(explored),
+        "is_design": Design::of(frame).is_some(),
         "has_curves": has_branches(frame),
         "model": model_json(explored),
         "running": running,

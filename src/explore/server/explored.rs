@@ -3,13 +3,16 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
+use std::thread;
 
 use super::answer::Refusal;
+use super::firsts::Firsts;
 use crate::campaign::{CampaignError, study_of};
-use crate::description::{Description, Output, State};
+use crate::description::{Description, Output, Section, State};
 use crate::figure::variables;
 use crate::motion::Case;
-use crate::orbit::Protocol;
+use crate::orbit::{Outcome, Protocol};
+use crate::store::catalogue::{OUTCOME, section};
 use crate::store::{Archive, Dataset};
 use crate::study::axis::{is_within, set};
 use crate::study::{Axis, CaseSet, Coordinate, Direction, Drawing, Range, Study};
@@ -27,6 +30,8 @@ pub struct Explored {
     pub study: Study,
     /// What the last map was drawn from.
     last: Mutex<Option<(Part, Arc<Dataset>)>>,
+    /// What clicks ask for.
+    firsts: Firsts,
 }
 
 /// A case near those of the file.
@@ -43,6 +48,14 @@ pub struct Near {
     pub start: String,
 }
 
+/// What a file has of the motion of a case.
+pub struct Kept {
+    /// Its speed, of models that have one.
+    pub speed: Option<f64>,
+    /// A section point of its motion, where that does not repeat.
+    pub point: Option<Section>,
+}
+
 impl Explored {
     /// The results in `archive`, the file at `file`.
     ///
@@ -56,7 +69,8 @@ impl Explored {
             );
             return Err(CampaignError::Path { path: file.to_owned(), fault: why });
         }
-        Ok(Explored { archive, file: file.to_owned(), study, last: Mutex::new(None) })
+        let (file, last) = (file.to_owned(), Mutex::new(None));
+        Ok(Explored { archive, file, study, last, firsts: Firsts::default() })
     }
 
     /// What `answer` gives from the results, if their file is as it was when it was opened and checked: before and after.
@@ -181,7 +195,7 @@ impl Explored {
             "where it was asked to".to_owned()
         } else if self.study.inherit().is_none() {
             "as the study says".to_owned()
-        } else if self.start_at_motion(&mut case, &position)? {
+        } else if self.start_at_motion(&mut case, index, &position)? {
             format!("at the motion of case {index}")
         } else {
             "as the study says: the nearest case has no motion".to_owned()
@@ -190,9 +204,13 @@ impl Explored {
     }
 
     /// Lets a case start at a section point of the motion of the case at a place; says whether that has one.
-    fn start_at_motion(&self, case: &mut Case, position: &[usize]) -> Result<bool, Refusal> {
-        let kept = self.archive.section_point(position);
-        let Some(point) = kept.map_err(|error| Refusal::unread(&error))? else {
+    fn start_at_motion(
+        &self,
+        case: &mut Case,
+        index: usize,
+        position: &[usize],
+    ) -> Result<bool, Refusal> {
+        let Some(point) = self.section_point(index, position)? else {
             return Ok(false);
         };
         case.start = State::at_section(self.model(), &point);
@@ -209,10 +227,50 @@ impl Explored {
         along_axes.chain(std::iter::repeat(0)).take(self.study.shape().len()).collect()
     }
 
-    /// What the file has of an output for the case at a place, if it has it.
-    pub fn kept(&self, position: &[usize], output: Output) -> Result<Option<f64>, Refusal> {
-        let first = self.archive.first(output.name(), position);
-        Ok(Some(first.map_err(|error| Refusal::unread(&error))?).filter(|it| it.is_finite()))
+    /// The first section point that the file has of the motion of a case, if it has one.
+    fn section_point(&self, index: usize, position: &[usize]) -> Result<Option<Section>, Refusal> {
+        let coordinates = section(self.model()).into_iter();
+        let point: Section = coordinates
+            .map(|entry| self.first(entry.name, index, position))
+            .collect::<Result<_, Refusal>>()?;
+        Ok(Some(point).filter(|point| point.iter().all(|it| it.is_finite())))
+    }
+
+    fn first(&self, name: &str, index: usize, position: &[usize]) -> Result<f64, Refusal> {
+        let first = self.firsts.first(&self.archive, name, index, position);
+        first.map_err(|error| Refusal::unread(&error))
+    }
+
+    /// What the file has of the motion of a case, if it is one of its own.
+    pub fn kept(&self, near: &Near) -> Result<Option<Kept>, Refusal> {
+        let Near { index, position, .. } = near;
+        if !near.is_exact || !self.archive.has_cases() {
+            return Ok(None);
+        }
+        let code = self.first(OUTCOME.name, *index, position)?;
+        let speed = match self.model().has_trade_off() {
+            true => Some(self.first(self.model().speed().name(), *index, position)?),
+            false => None,
+        };
+        // A motion that repeats is found in less time than its section point is read.
+        let is_aperiodic =
+            [Outcome::Chaotic, Outcome::QuasiPeriodic].iter().any(|it| *it as i64 as f64 == code);
+        let point = match is_aperiodic {
+            true => self.section_point(*index, position)?,
+            false => None,
+        };
+        Ok(Some(Kept { speed: speed.filter(|it| it.is_finite()), point }))
+    }
+
+    /// Reads what clicks ask for, on a thread of its own, after the first click.
+    pub fn expect_clicks(self: &Arc<Explored>) {
+        let cases = self.study.cases();
+        if self.firsts.begin(cases) {
+            let explored = self.clone();
+            // Without the thread each case is read by itself.
+            let _ = thread::Builder::new()
+                .spawn(move || explored.firsts.read(&explored.archive, cases));
+        }
     }
 }
 

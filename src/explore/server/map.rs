@@ -8,9 +8,10 @@ use serde_json::{Map, Value, json};
 use super::answer::{Refusal, bytes, json as json_answer};
 use super::asked::Asked;
 use super::explored::Explored;
+use super::limits::{ends, limited, read};
 use crate::figure::{
     ColouredMap, MapAxis, MapColours, MapLine, MapPoint, TradeOffAxis, coloured_map, over_map,
-    over_map_variables, shown_quantity, trade_off_cells,
+    over_map_variables, trade_off_cells,
 };
 use crate::quantity::Dimension;
 use crate::study::appearance::SettingText;
@@ -19,8 +20,21 @@ use crate::study::{
 };
 
 /// The parameters of a request for a map or for its figure, beside the axes.
-const KNOWN: [&str; 10] =
-    ["of", "x", "y", "sweep", "curves", "kind", "format", "colour-map", "scale", "limits"];
+const KNOWN: [&str; 13] = [
+    "of",
+    "x",
+    "y",
+    "sweep",
+    "curves",
+    "kind",
+    "format",
+    "colour-map",
+    "scale",
+    "limits",
+    "limits-x",
+    "limits-y",
+    "stored",
+];
 /// What may be set of the colours of a map.
 pub const SETTINGS: [(&str, Setting); 3] =
     [("colour-map", Setting::ColourMap), ("scale", Setting::Scale), ("limits", Setting::Limits)];
@@ -50,29 +64,30 @@ pub fn drawing(explored: &Explored, asked: &Asked, kind: DrawingKind) -> Result<
     let of: Vec<String> = of.into_iter().collect();
     let name = free_name(kind, &of, &explored.study.drawings);
     let curves = asked.text("curves").is_some();
-    let settings = settings(explored, asked, &of)?;
+    let mut settings = settings(explored, asked, &of)?;
+    for (key, axis) in [("limits-x", &x), ("limits-y", &y)] {
+        match axis {
+            Some(name) => limited(explored, asked, key, name, &mut settings)?,
+            None if asked.text(key).is_some() => {
+                return Err(Refusal::unfit(format!("{key}: goes with the name of an axis")));
+            }
+            None => {}
+        }
+    }
     Ok(Drawing { x, y, of, at, sweep, curves, settings, ..Drawing::new(name, kind) })
-}
-
-/// A number as requests have it, in whatever unit is meant.
-fn read(text: &str, _: Dimension) -> Result<f64, String> {
-    text.trim().parse().map_err(|_| "a number is expected".to_owned())
 }
 
 /// What is set of the colours of a map of this output, or of the usual one: the ends of its values are in the unit shown.
 fn settings(explored: &Explored, asked: &Asked, of: &[String]) -> Result<Settings, Refusal> {
     let usual = explored.model().main_output().name();
     let name = of.first().map_or(usual, String::as_str);
-    let factor = shown_quantity(name, explored.archive.frame()).factor;
     let mut set = QuantitySettings::default();
     for (key, setting) in SETTINGS {
         let Some(text) = asked.text(key) else { continue };
         let unfit = |why: String| Refusal::unfit(format!("{key}: {why}"));
         let mut parts = vec![text.to_owned()];
         if setting == Setting::Limits {
-            let ends = text.split(',').map(|it| read(it, Dimension::Number));
-            let ends: Vec<f64> = ends.collect::<Result<_, String>>().map_err(unfit)?;
-            parts = ends.into_iter().map(|it| (it / factor).to_string()).collect();
+            parts = ends(explored, name, text).map_err(unfit)?;
         }
         let dimension = Dimension::Number;
         set.put(setting, SettingText { parts: &parts, dimension, read }).map_err(unfit)?;
@@ -154,14 +169,18 @@ fn packed(head: &Value, bytes_of_cells: &[u8], columns: &[&[f32]]) -> Response {
 }
 
 fn described(map: &ColouredMap) -> Value {
-    let key = match &map.key {
+    let [x, y] = &map.axes;
+    json!({ "x": axis_json(x), "y": axis_json(y), "told": map.told, "key": key_json(&map.key) })
+}
+
+/// What the colours tell.
+pub(super) fn key_json(key: &MapColours) -> Value {
+    match key {
         MapColours::Bar(range, spread, width, colours) => {
             json!({ "range": range, "spread": spread, "width": width, "colours": colours })
         }
         MapColours::Kinds(kinds) => json!({ "kinds": kinds }),
-    };
-    let [x, y] = &map.axes;
-    json!({ "x": axis_json(x), "y": axis_json(y), "told": map.told, "key": key })
+    }
 }
 
 fn axis_json(axis: &MapAxis) -> Value {

@@ -10,13 +10,18 @@ mod computations;
 mod described;
 mod draws;
 mod explored;
+mod firsts;
 mod followed;
+mod limits;
 mod line;
 mod map;
 mod motion;
 mod private_folder;
 mod saved;
+mod sensitivity;
 mod source;
+mod stored_basin;
+mod stored_diagram;
 mod written;
 
 use std::io;
@@ -44,6 +49,7 @@ use branches::LineBranch;
 use computations::{Computations, Places};
 use explored::Explored;
 use line::Line;
+use motion::Clicked;
 pub use private_folder::PrivateFolder;
 pub use source::Source;
 use written::Written;
@@ -152,8 +158,12 @@ fn router(shared: Shared) -> Router {
         .route("/api/map", of_file(readings, map::map))
         .route("/api/curves", of_file(readings, map::curves))
         .route("/api/trade-off", of_file(readings, map::trade_off))
-        .route("/api/motion", of_file(motions, |it, asked| Ok(json(&motion::motion(it, asked)?))))
+        .route("/api/motion", of_file(motions, motion::motion))
+        .route("/api/click", get(click))
         .route("/api/draws", of_file(readings, |it, asked| Ok(json(&draws::draws(it, asked)?))))
+        .route("/api/diagram", of_file(readings, stored_diagram::diagram))
+        .route("/api/stored-basin", of_file(readings, stored_basin::stored_basin))
+        .route("/api/sensitivity", of_file(readings, sensitivity::sensitivity))
         .route("/api/figure", get(figure))
         .route("/api/line", get(line))
         .route("/api/branches", get(branches))
@@ -245,6 +255,17 @@ async fn figure(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Res
     let folder = shared.folder.clone();
     let heavy = &shared.computations.heavy;
     heavy.answer(move || explored.answer(|it| saved::figure(it, &asked, folder.path()))).await
+}
+
+/// The motion of a case, as a page that is looked at wants it: as soon as there is something to be drawn.
+async fn click(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
+    let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
+    let now = explored.clone();
+    let motions = &shared.computations.motions;
+    let prepare = move || now.answer(|it| Clicked::of(it, &asked));
+    let answer = motions.stream(prepare, Clicked::compute).await;
+    explored.expect_clicks();
+    answer
 }
 
 async fn line(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use axum::response::Response;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::answer::Refusal;
+use super::answer::{Refusal, json as json_answer};
 use super::asked::Asked;
 use super::computations::{BUDGET, MOTION_BUDGET};
-use super::explored::{Explored, Near};
+use super::explored::{Explored, Kept, Near};
 use super::followed::{MOST_POINTS, followed};
 use crate::campaign::command;
 use crate::description::{Section, State};
@@ -33,7 +34,7 @@ const PER_CYCLE: u32 = 400;
 
 /// What is told of a motion.
 #[derive(Serialize)]
-pub struct Told {
+struct Told {
     /// What `capsulemap simulate --json` prints of its case.
     simulate: Value,
     /// What the numbers do not say by themselves.
@@ -50,6 +51,12 @@ pub struct Told {
     exact: bool,
     /// Where it starts, in words.
     start: String,
+}
+
+/// What is told of a motion before it is judged.
+#[derive(Serialize)]
+struct Early<'a> {
+    history: &'a History,
 }
 
 /// Columns over time in SI; a screen shows fewer digits than theirs.
@@ -69,37 +76,106 @@ struct History {
 /// what it settles to.
 ///
 /// Fails if a coordinate is out of its bounds, or it takes longer than a click may.
-pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
-    asked.only(explored.model(), &[CYCLES.name, "sweep"])?;
-    let cycles = asked.count(CYCLES.name, [0, 400], TRANSIENT as usize)? as u64;
-    let near = explored.near(&asked.coordinates(explored.model())?, asked.sweep()?)?;
-    let protocol = explored.protocol();
-    let Near { case, index, is_exact, .. } = &near;
-    let command =
-        format!("{} --cycles {cycles}", command(case, &protocol, &explored.file.to_string_lossy()));
-    let most = SimulationSize { cycles, events: MOST_EVENTS };
-    let simulation = model_of(&case.parameters).simulate(case, most, protocol.tolerance);
-    let orbit = settle_case(case, &protocol);
-    let history = history(case, &orbit, protocol.tolerance);
-    if stop::is_asked() {
-        let instead = format!("run `{command}`, which has no such limit");
-        return Err(Refusal::late(MOTION_BUDGET, &instead));
+pub fn motion(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
+    let clicked = Clicked::of(explored, asked)?;
+    let early = clicked.early();
+    Ok(json_answer(&clicked.told(early)?))
+}
+
+/// A case that was clicked.
+pub struct Clicked {
+    near: Near,
+    protocol: Protocol,
+    /// Cycles of its transient.
+    cycles: u64,
+    /// The command that computes it.
+    command: String,
+    /// What the file has of its motion, if it is a case of the file.
+    kept: Option<Kept>,
+}
+
+impl Clicked {
+    /// The case that is asked for.
+    ///
+    /// Fails if a coordinate is out of its bounds.
+    pub fn of(explored: &Explored, asked: &Asked) -> Result<Clicked, Refusal> {
+        asked.only(explored.model(), &[CYCLES.name, "sweep"])?;
+        let cycles = asked.count(CYCLES.name, [0, 400], TRANSIENT as usize)? as u64;
+        let near = explored.near(&asked.coordinates(explored.model())?, asked.sweep()?)?;
+        let protocol = explored.protocol();
+        let file = explored.file.to_string_lossy();
+        let command = format!("{} --cycles {cycles}", command(&near.case, &protocol, &file));
+        let kept = explored.kept(&near)?;
+        Ok(Clicked { near, protocol, cycles, command, kept })
     }
-    let mut remarks = remarks(&case.parameters, &orbit);
-    remarks.extend(other_mean(explored, &near, &orbit)?);
-    remarks.extend(end_of_simulation(&simulation, cycles));
-    remarks.extend(history.as_ref().and_then(History::end));
-    Ok(Told {
-        simulate: case_json(&case.parameters, &simulation, &orbit),
-        remarks,
-        history,
-        portrait: on_portrait(case, &orbit.section),
-        stroboscopic: orbit.section,
-        command,
-        nearest: *index,
-        exact: *is_exact,
-        start: near.start,
-    })
+
+    /// Sends what is told of it in one object; of a motion that does not repeat, which takes long to judge, its histories before.
+    pub fn compute(self, send: &dyn Fn(String) -> bool) {
+        let early = self.early();
+        let is_early = early.is_some();
+        if let Some(history) = &early {
+            let part = serde_json::to_string(&Early { history }).unwrap_or_default();
+            if !send(part) {
+                return;
+            }
+        }
+        match self.told(early) {
+            Ok(told) => {
+                // It is not sent twice.
+                let history = told.history.filter(|_| !is_early);
+                let told = Told { history, ..told };
+                send(serde_json::to_string(&told).unwrap_or_default());
+            }
+            Err(refusal) => {
+                send(refusal.line());
+            }
+        }
+    }
+
+    /// The motion from the section point that the file has of it.
+    fn early(&self) -> Option<History> {
+        let point = self.kept.as_ref()?.point.as_ref()?;
+        let from = State::at_section(self.near.case.parameters.model(), point);
+        history(&self.near.case, from, MOST_SHOWN, self.protocol.tolerance)
+    }
+
+    /// What is told of the case: the histories are those that are `early`, if they are there.
+    ///
+    /// Fails if it takes longer than a click may.
+    fn told(self, early: Option<History>) -> Result<Told, Refusal> {
+        let Clicked { near, protocol, cycles, command, kept } = self;
+        let case = &near.case;
+        let most = SimulationSize { cycles, events: MOST_EVENTS };
+        let simulation = model_of(&case.parameters).simulate(case, most, protocol.tolerance);
+        let orbit = settle_case(case, &protocol);
+        let history = match (early, &orbit.failure) {
+            (_, Some(_)) => None,
+            (Some(early), None) => Some(early),
+            (None, None) => {
+                let from = orbit.end.clone().without_drift();
+                history(case, from, shown(&orbit), protocol.tolerance)
+            }
+        };
+        if stop::is_asked() {
+            let instead = format!("run `{command}`, which has no such limit");
+            return Err(Refusal::late(MOTION_BUDGET, &instead));
+        }
+        let mut remarks = remarks(&case.parameters, &orbit);
+        remarks.extend(other_mean(kept.as_ref(), &orbit));
+        remarks.extend(end_of_simulation(&simulation, cycles));
+        remarks.extend(history.as_ref().and_then(History::end));
+        Ok(Told {
+            simulate: case_json(&case.parameters, &simulation, &orbit),
+            remarks,
+            history,
+            portrait: on_portrait(case, &orbit.section),
+            stroboscopic: orbit.section,
+            command,
+            nearest: near.index,
+            exact: near.is_exact,
+            start: near.start,
+        })
+    }
 }
 
 /// Section points in the coordinates of the phase portrait; none where the model has none.
@@ -123,24 +199,18 @@ fn end_of_simulation(simulation: &Simulation, cycles: u64) -> Option<String> {
 }
 
 /// Why the speed of a case of the file is not the one that the file has, where its motion does not repeat.
-fn other_mean(explored: &Explored, near: &Near, orbit: &Orbit) -> Result<Option<String>, Refusal> {
-    if !explored.model().has_trade_off() {
-        return Ok(None);
-    }
-    let kept = explored.kept(&near.position, explored.model().speed())?;
-    let differs = near.is_exact && orbit.outcome != Outcome::Periodic;
-    Ok(kept.filter(|_| differs).map(|kept| {
-        format!(
-            "the file has the speed {:.6} mm/s for this case: of a motion that does not repeat, both are means over some cycles, \
-             and these are others",
-            1e3 * kept
-        )
-    }))
+fn other_mean(kept: Option<&Kept>, orbit: &Orbit) -> Option<String> {
+    let kept = kept?.speed.filter(|_| orbit.outcome != Outcome::Periodic)?;
+    Some(format!(
+        "the file has the speed {:.6} mm/s for this case: of a motion that does not repeat, both are means over some cycles, \
+         and these are others",
+        1e3 * kept
+    ))
 }
 
 /// The study of the one case that a request asks for, with the history of what it settles to.
 ///
-/// Fails as [`motion`] does.
+/// Fails as [`Clicked`] does.
 pub fn study(explored: &Explored, asked: &Asked) -> Result<Study, Refusal> {
     asked.only(explored.model(), &[CYCLES.name, "sweep", "kind", "format"])?;
     let case = explored.near(&asked.coordinates(explored.model())?, asked.sweep()?)?.case;
@@ -172,11 +242,9 @@ pub fn shown(orbit: &Orbit) -> u64 {
     }
 }
 
-/// The motion that a case settles to over some cycles, with its events, in columns in SI; nothing where it failed.
-fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
-    let cycles = shown(orbit);
-    let from = orbit.end.clone().without_drift();
-    let stretch = followed(case, from, cycles, tolerance).filter(|_| orbit.failure.is_none())?;
+/// The motion of a case from a state on its section over some cycles, with its events, in columns in SI.
+fn history(case: &Case, from: State, cycles: u64, tolerance: f64) -> Option<History> {
+    let stretch = followed(case, from, cycles, tolerance)?;
     let parameters = &case.parameters;
     let model = parameters.model();
     let present = model.motion.signals.iter().filter(|it| (it.missing)(parameters).is_none());

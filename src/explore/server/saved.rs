@@ -14,6 +14,7 @@ use super::explored::Explored;
 use super::line::{self, Line};
 use super::map;
 use super::motion;
+use super::stored_diagram;
 use crate::campaign::results_in_memory;
 use crate::figure::{Format, Place, draw};
 use crate::flow::stop;
@@ -21,6 +22,9 @@ use crate::orbit::Machine;
 use crate::run::run_sample;
 use crate::store::Dataset;
 use crate::study::{Drawing, DrawingKind, Study};
+
+/// What a request for a figure of the file itself has, where one with the same name is computed, too.
+const STORED: &str = "stored";
 
 /// The figure that a request asks for as PDF, SVG or PNG, drawn in a folder that others cannot read; what it shows is computed
 /// again where it is not in the file.
@@ -36,6 +40,14 @@ pub fn figure(explored: &Explored, asked: &Asked, place: &Path) -> Result<Respon
         Some(kind @ (DrawingKind::History | DrawingKind::PhasePortrait)) => {
             let study = motion::study(explored, asked)?;
             computed(&study, Drawing::new(kind.name(), kind), motion::INSTEAD)?
+        }
+        Some(DrawingKind::Bifurcation) if asked.text(STORED).is_some() => {
+            let drawing = stored_diagram::drawing(explored, asked)?;
+            (explored.dataset(&drawing)?, drawing)
+        }
+        Some(kind @ DrawingKind::Basin) if asked.text(STORED).is_some() => {
+            let drawing = map::drawing(explored, asked, kind)?;
+            (explored.dataset(&drawing)?, drawing)
         }
         Some(DrawingKind::Bifurcation) => {
             let line = Line::of(explored, asked)?;
