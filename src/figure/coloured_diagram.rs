@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::bifurcation;
 use super::coloured::{MapColours, key};
-use super::diagram::{Cases, Diagram, Sorted, has_points};
+use super::diagram::{Diagram, has_points};
+use super::diagram_contents::{Cases, Sorted};
 use super::error::FigureError;
 use super::outcome::Outcomes;
 use super::over_map::channels;

@@ -23,6 +23,7 @@ mod codim2_symbol;
 mod curves;
 mod data;
 mod diagram;
+mod diagram_contents;
 mod error;
 mod branch_lines;
 mod event_marks;

@@ -10,6 +10,7 @@ pub mod elementary;
 mod in_lanes;
 mod order;
 mod pair;
+mod part;
 pub mod quadrature;
 pub mod series;
 mod side_by_side;
@@ -25,9 +26,10 @@ pub use dispatch::Instructions;
 pub use dual::Dual;
 pub use order::{ORDER, Series};
 pub use pair::Pair;
+pub use part::Part;
 pub use side_by_side::SideBySide;
 pub use wide::Wide;
-pub use work::{Part, Work};
+pub use work::Work;
 
 pub use crate::{in_lanes, side_by_side};
 

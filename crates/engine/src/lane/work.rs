@@ -26,14 +26,3 @@ pub trait Work {
     /// Does it on lanes of the kind `L`.
     fn run<L: Lane>(self) -> Self::Output;
 }
-
-/// A part of a step that is compiled as a function of its own ([`Lane::apart`]).
-///
-/// What a step inlines is one function, and compilers take the square of its size: a few parts of it take minutes less. `run` and
-/// everything that it calls on lanes must be `#[inline(always)]`, as for [`Work`].
-pub trait Part {
-    /// What it yields.
-    type Output;
-    /// Does it.
-    fn run(self) -> Self::Output;
-}

@@ -10,7 +10,8 @@ use std::arch::x86_64::*;
 use std::mem::transmute;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::work::{Part, Work};
+use super::part::Part;
+use super::work::Work;
 use super::{INFINITE, LOG_ONE, LOG_UNIT, Lane, Mask, WHOLE, Wide};
 
 /// Runs `work` on so many vectors of AVX-512, none where the processor lacks it.
