@@ -240,7 +240,7 @@ fn without_a_drive_basins_and_branches_are_drawn_and_histories_refused() {
     let at_rest = starts["attractor"].iter().filter(|it| it[1] == 0.0 && it[0] > 0.5);
     let mut sides = [0, 0];
     for [x, _] in at_rest {
-        let sticks = cells.contains(&format!("\n1,attractor,{x},0,1\n"));
+        let sticks = cells.contains(&format!("\n1,attractor,{x},0,0\n"));
         assert_eq!(sticks, *x > edge, "{x} {edge}");
         sides[usize::from(sticks)] += 1;
     }
