@@ -155,6 +155,9 @@ dependencies() {
 step "what the machine needs" scripts/setup.sh
 step "formatting" cargo fmt --check
 step "dependencies" dependencies
+# What is soon told comes before what takes long.
+step "lints" cargo clippy --all-targets -- -D warnings
+step "documentation" documentation
 step "Python readers" python_readers
 step "Slurm" slurm
 step "strace" strace_for_kills
@@ -162,6 +165,4 @@ step "browser" browser
 step "tests, as in the README" readme_test
 step "no lanes above the models" no_lanes_above_models
 step "engine alone" engine_alone
-step "lints" cargo clippy --all-targets -- -D warnings
-step "documentation" documentation
 echo "== all checks passed in $SECONDS s"

@@ -72,9 +72,8 @@ impl FreeVibration {
 /// logarithms do not, and those of small ones are biased. Their errors are the noise of the record as the smoothing passes it,
 /// or their own scatter where that is clearly larger. Smoothing changes all turning points by one factor. The second method
 /// is the least squares of `r = rest + exp(-gamma t) (a cos(omega_d t) + b sin(omega_d t))` on every sample after the
-/// mass has first passed its rest position, and on all samples where they are those of a mass that is let go at rest, see [`released`]; it
-/// uses all of the decay and is the better one. Where the mass is at rest after a swing or
-/// two, the second method alone is used, from several dampings: the best of the decays that it ends in.
+/// mass has first passed its rest position, and on all samples where an F-test finds them no worse described so, as those of a
+/// mass that is let go at rest; it uses all of the decay and is the better one. Where the mass is at rest after a swing or two, the second method alone is used, from several dampings: the best of the decays that it ends in.
 ///
 /// # Assumes
 ///
