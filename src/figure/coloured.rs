@@ -1,7 +1,10 @@
 //! A map as the colours and numbers of its cells, for a screen that draws it itself.
 
+use std::rc::Rc;
+
 use super::attractor_colours::{colour_of, tinted};
 use super::cells::Cells;
+use super::chosen::Chosen;
 use super::colour::Colours;
 use super::error::FigureError;
 use super::map;
@@ -12,9 +15,10 @@ use super::quantity::Quantity;
 use super::scale::{Scale, Spacing};
 use super::shown::Shown;
 use super::style::UNDECIDED;
+use super::unit::ShownUnit;
 use super::view::View;
 use crate::store::dataset::Dataset;
-use crate::study::Drawing;
+use crate::study::{Drawing, QuantitySettings};
 
 /// Colours of a bar.
 const STEPS: usize = 256;
@@ -147,9 +151,11 @@ pub struct ShownQuantity {
     pub factor: f64,
 }
 
-/// How figures show the quantity called `name` in files.
-pub fn shown_quantity(name: &str, dataset: &Dataset) -> ShownQuantity {
-    let quantity = Quantity::named(name, dataset);
+/// How figures show the quantity called `name` in files, in a unit that is named and fits it, or in the usual one.
+pub fn shown_quantity(name: &str, dataset: &Dataset, unit: Option<&str>) -> ShownQuantity {
+    let unit = unit.and_then(|unit| ShownUnit::of(name, dataset.model(), unit, || None).ok());
+    let chosen = Chosen::new(QuantitySettings::default(), unit);
+    let quantity = Quantity::named(name, dataset).with(Rc::new(chosen));
     let (label, unit) = (quantity.told(), quantity.unit().content());
     ShownQuantity { label, unit, factor: quantity.factor }
 }

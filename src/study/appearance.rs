@@ -173,16 +173,20 @@ const MOST_DECIMALS: usize = 12;
 /// What is set of the quantities of a figure, by their names.
 pub type Settings = BTreeMap<String, QuantitySettings>;
 
-/// The dimension of what a figure of the results of a model can show; the error names what there is.
-pub fn dimension_of(name: &str, model: &'static Description) -> Result<Dimension, String> {
+/// What figures of the results of a model can show, by name, with its dimension.
+pub fn quantities(model: &'static Description) -> Vec<(&'static str, Dimension)> {
     let coordinates = Coordinate::all(model).map(Coordinate::quantity);
     let outputs = model.outputs().map(|it| it.quantity());
     let signals = model.motion.signals.iter().map(|it| it.quantity);
     let groups = model.motion.groups.iter().map(|it| it.quantity);
     let of_motions = model.points().chain(signals).chain(groups);
     let described = coordinates.chain(outputs).chain(of_motions);
-    let described = described.map(|it| (it.name, it.dimension));
-    let known: Vec<(&str, Dimension)> = described.chain(OTHERS).collect();
+    described.map(|it| (it.name, it.dimension)).chain(OTHERS).collect()
+}
+
+/// The dimension of what a figure of the results of a model can show; the error names what there is.
+pub fn dimension_of(name: &str, model: &'static Description) -> Result<Dimension, String> {
+    let known = quantities(model);
     let found = known.iter().find(|it| it.0 == name).map(|it| it.1);
     found.ok_or_else(|| unknown("quantity", name, known.iter().map(|it| it.0)))
 }

@@ -201,6 +201,26 @@ async function steps(page) {
   await page.waitForFunction((old) => [...document.querySelectorAll("#line-form input")].some((it, i) => Number(it.value) !== old[i]), old);
   const now = await ends();
   must(now[0] === old[0] && now[1] === old[1] && now[2] < old[2] && now[3] > old[3], `the end of the line is not where it was dragged: ${old} to ${now}`);
+  await units(page, now);
+}
+
+/** Other units are those of the map, of the forms and of the command, and go again where they are undone. */
+async function units(page, ends) {
+  const loaded = () => page.waitForSelector("#motions[data-milliseconds]");
+  const chosen = () => page.evaluate(() => [...document.querySelectorAll("#line-form input")].map((it) => Number(it.value)));
+  await page.click("#units-button");
+  await page.selectOption("#units-form select[name=unit-0]", "Hz");
+  await Promise.all([page.waitForEvent("load"), page.click("#units-form button:not([type=button])")]);
+  await loaded();
+  const figure = await command(page, "--unit omega=Hz"), [from, , to] = await chosen(), turn = 2 * Math.PI;
+  must(figure !== null, "the unit is not in the command");
+  must(Math.abs(from * turn / ends[0] - 1) < 1e-9 && Math.abs(to * turn / ends[2] - 1) < 1e-9, `the line is not told in hertz: ${from} to ${to}`);
+  must((await page.getAttribute("#map", "aria-label")).includes("Hz"), "the map is not in hertz");
+  await page.click("#units-button");
+  await look(page, "light", "units");
+  await Promise.all([page.waitForEvent("load"), page.click("#undo-button")]);
+  await loaded();
+  must(await command(page, "--unit") === null, "the unit stays where it is undone");
 }
 
 /** The place of the end of the line on the page. */

@@ -105,3 +105,51 @@ fn a_saved_map_has_the_colours_that_the_page_sets() {
         assert!(refused.status == 400 && refused.text().contains(told), "{}", refused.text());
     }
 }
+
+#[test]
+fn the_units_of_the_page_are_those_of_its_maps_and_of_saved_figures() {
+    let work = WorkDir::new();
+    work.put("map.toml", coarse_overview([5, 9]));
+    work.run(&["sweep", "map.toml", "--output", "map.h5", "--no-figures"]).done();
+    let explorer = Explorer::new(&work, &["map.h5"]);
+    let units = "units=Hz,mN,cm/s";
+    let [usual, chosen] =
+        ["", units].map(|it| explorer.object(&format!("/api/file?{it}"))["axes"].clone());
+    for (axis, [before, label, unit], factor) in
+        [(1, ["ω", "ω/2π", "Hz"], 1.0 / std::f64::consts::TAU), (0, ["p_d", "p_d", "mN"], 1e3)]
+    {
+        let told = |it: &serde_json::Value| it[axis]["label"].as_str().expect("words").to_owned();
+        let plain = |it: String| it.replace('_', "").replace(['{', '}'], "");
+        let [before, label] = [before, label].map(|it| plain(it.to_owned()));
+        assert!(plain(told(&usual)).contains(&before), "{}", told(&usual));
+        assert!(plain(told(&chosen)).contains(&label), "{}", told(&chosen));
+        assert_eq!((&chosen[axis]["unit"], &chosen[axis]["asked"]), (&unit.into(), &unit.into()));
+        let found = chosen[axis]["factor"].as_f64().expect("a number");
+        assert!((found / factor - 1.0).abs() < 1e-12, "{unit}: {found}");
+        assert_eq!(usual[axis]["values"], chosen[axis]["values"], "values stay in SI");
+    }
+    // The ends of the colours are in the unit shown.
+    let map = "/api/figure?kind=map&of=progression_speed&x=omega&y=p_d&format=svg";
+    let asked = explorer.get(&format!("{map}&{units}&limits=-0.2,0.5"));
+    assert_eq!(asked.status, 200, "{}", asked.text());
+    work.shell(
+        "\"$0\" figure map.h5 --kind map --of progression_speed --x omega --y p_d --unit omega=Hz \
+         --unit p_d=mN --unit progression_speed=cm/s --limits 'progression_speed=-0.2 cm/s,0.5 cm/s' \
+         --formats svg",
+    )
+    .done();
+    let files = work.files();
+    let svg = files.iter().find(|it| it.ends_with(".svg")).expect("a figure");
+    assert!(asked.text() == fs::read_to_string(work.path(svg)).expect("a figure"), "{svg} differs");
+    for (wrong, told) in [
+        ("units=parsec", "units: expected of rad/s, Hz"),
+        ("units=mm,cm", "units: mm and cm are units of one dimension"),
+        ("units=%00", "units: expected of"),
+    ] {
+        for place in ["/api/file?", &format!("{map}&"), "/api/map?of=power&x=omega&y=p_d&"] {
+            let refused = explorer.get(&format!("{place}{wrong}"));
+            let words = refused.text();
+            assert!(refused.status == 400 && words.contains(told), "{place}{wrong}: {words}");
+        }
+    }
+}

@@ -115,6 +115,10 @@ const HOSTILE: &[(&str, &[u16])] = &[
         &[400],
     ),
     (
+        "GET /api/file?units=%27%3b--,mm HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n",
+        &[400],
+    ),
+    (
         "GET /api/sensitivity?of=%ff HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n",
         &[400],
     ),

@@ -1,5 +1,7 @@
 // Asks the server: objects, maps, trade-offs and streams of lines.
 
+import * as view from "./view.js";
+
 /** What is told where nobody answers. */
 const GONE = "capsulemap explore no longer answers; start it again";
 /** The status of what is not shown because another program has changed the file. */
@@ -16,7 +18,8 @@ async function answered(address, signal) {
   throw new Error(told.error);
 }
 
-const address = (path, pairs) => `${path}?${new URLSearchParams(pairs)}`;
+// Each is asked in the units of the page.
+const address = (path, pairs) => `${path}?${new URLSearchParams({ ...pairs, ...(view.text("units") ? { units: view.text("units") } : {}) })}`;
 
 /** An object. */
 export async function object(path, pairs = {}, signal) {

@@ -11,6 +11,7 @@ import { button, by, element, labelled, marked as indexed, parted, say, select, 
 import { handOver, quoted, saveButtons } from "./keep.js";
 import { colours, context, frame, redrawn, share, within } from "./plot.js";
 import { range, short } from "./ticks.js";
+import { options } from "./units.js";
 
 /** A symbol is meant that lies so near, and a point of a ramp or a branch [CSS pixels]. */
 const [NEAR, BESIDE] = [9, 14];
@@ -383,8 +384,9 @@ export class Diagram {
   // The command of the figure.
   hand() {
     const { x, panels, colour_by: by } = this.data, all = view.numbers("range", 2), only = view.text("panel"), [, unit] = parted(x.label);
+    const known = [...this.file.diagrams, ...this.file.outputs], shown = [x, ...panels].map(({ name }) => known.find((it) => it.name === name));
     const names = (only ? [only] : panels.map((it) => it.name)).join(",");
     const limits = all ? ` --limits ${quoted(`${x.name}=${all.map((it) => `${it}${unit && ` ${unit}`}`).join(",")}`)}` : "";
-    handOver("map", "Figure of the diagram", `capsulemap figure ${quoted(this.file.file)} --kind bifurcation --x ${x.name} --of ${names}${by ? ` --colour-by ${by}` : ""}${limits}`);
+    handOver("map", "Figure of the diagram", `capsulemap figure ${quoted(this.file.file)} --kind bifurcation --x ${x.name} --of ${names}${by ? ` --colour-by ${by}` : ""}${options(shown)}${limits}`);
   }
 }

@@ -5,11 +5,12 @@ import { isBasin, isShown } from "./attractors.js";
 import { by } from "./element.js";
 import { handOver, quoted, save } from "./keep.js";
 import { page, price } from "./shown.js";
+import { options } from "./units.js";
 
 // A number with as many digits as tell the ends of a range apart to a thousandth, with its unit.
 function end(value, [low, high], unit) {
   const digits = 4 + Math.ceil(Math.log10(Math.max(Math.abs(low), Math.abs(high)) / (high - low)));
-  return `${Number(value.toPrecision(Math.max(digits, 4)))}${unit ? ` ${unit}` : ""}`;
+  return `${Number(value.toPrecision(Math.max(digits, 4)))}${unit ? ` ${unit === "°" ? "deg" : unit}` : ""}`;
 }
 
 const option = (name, ends, unit) => ` --limits ${quoted(`${name}=${ends.map((it) => end(it, ends, unit)).join(",")}`)}`;
@@ -63,7 +64,8 @@ export function handMaps() {
   const { file, choices } = page, { of, x, y } = choices.chosen(), { sweep } = choices.sweep();
   const places = Object.entries(choices.held()).map(([name, value]) => ` --at ${name}=${value}`).join("") + (sweep ? ` --sweep ${sweep}` : "");
   const figure = (kind, more) => `capsulemap figure ${quoted(file.file)} --kind ${kind} ${more}${places}`;
-  if (kind() === "basin") handOver("map", "Figure of the basins", figure("basin", `--x ${x} --y ${y}${limits()}`));
-  else handOver("map", "Figure of the map", figure("map", `--of ${of} --x ${x} --y ${y}${page.curves ? " --curves" : ""}${colours(of)}${limits()}`));
-  handOver("trade-off", "Figure of the trade-off", price() && sweep !== "difference" && figure("trade-off", `--of ${price()}`));
+  const shown = options([x, y].map((name) => choices.axis(name))), out = file.outputs.find((it) => it.name === of);
+  if (kind() === "basin") handOver("map", "Figure of the basins", figure("basin", `--x ${x} --y ${y}${shown}${limits()}`));
+  else handOver("map", "Figure of the map", figure("map", `--of ${of} --x ${x} --y ${y}${page.curves ? " --curves" : ""}${options([out])}${shown}${colours(of)}${limits()}`));
+  handOver("trade-off", "Figure of the trade-off", price() && sweep !== "difference" && figure("trade-off", `--of ${price()}${options([file.model.main_output, file.model.costs.find((it) => it.name === price())])}`));
 }

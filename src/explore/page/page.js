@@ -33,6 +33,7 @@ import { Scatter } from "./scatter.js";
 import { axes, chosen, clicked, ends, page, pins } from "./shown.js";
 import { isSeen, listenToMap, listenToSteps, look, looked, offerSteps, pressed, switched } from "./tools.js";
 import { TradeOff, prices } from "./tradeoff.js";
+import * as units from "./units.js";
 
 let asking = null;
 /** The cells that the marks over the map belong to. */
@@ -176,6 +177,8 @@ async function mapChanged(has) {
 /** Shows what has changed in the address. */
 async function changed(keys) {
   const has = (...all) => all.some((key) => keys.includes(key));
+  // All that is shown is asked for in the units of the page.
+  if (has("units")) { location.reload(); return; }
   by("fault").hidden = true;
   offerSteps();
   if (has("pane")) tabs.turn();
@@ -247,6 +250,7 @@ async function open(file) {
   divider.listen();
   listenToSteps();
   offerSteps();
+  units.listen(file);
   wait(file, () => chooseOnMap(largest()));
   if (lay(file)) {
     page.map = new CellMap(by("map"), { hover, choose: chooseOnMap, drag, mode, looked });

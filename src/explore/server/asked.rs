@@ -4,6 +4,9 @@ use super::answer::Refusal;
 use crate::description::Description;
 use crate::study::{Coordinate, Direction};
 
+/// The parameter that any request may have: the units in which quantities are shown.
+pub const UNITS: &str = "units";
+
 /// The parameters of a request, each once.
 pub struct Asked(Vec<(String, String)>);
 
@@ -78,7 +81,9 @@ impl Asked {
     /// Fails if there is a parameter that is neither a coordinate nor `known`.
     pub fn only(&self, model: &'static Description, known: &[&str]) -> Result<(), Refusal> {
         let is_known = self.0.iter().all(|(name, _)| {
-            known.contains(&name.as_str()) || Coordinate::all(model).any(|it| it.name() == name)
+            name == UNITS
+                || known.contains(&name.as_str())
+                || Coordinate::all(model).any(|it| it.name() == name)
         });
         match is_known {
             true => Ok(()),

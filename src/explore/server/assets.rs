@@ -67,6 +67,7 @@ const ASSETS: &[(&str, &[u8])] = assets![
     "tip.js",
     "tools.js",
     "tradeoff.js",
+    "units.js",
     "view.js",
     "views.css",
     "uPlot/uPlot.esm.js",

@@ -8,9 +8,10 @@ use super::computations::BUDGET;
 use super::explored::Explored;
 use super::followed::followed;
 use super::motion::shown;
+use super::units::Units;
 use crate::attractor::{Attractor, Label};
 use crate::description::{Description, Section, State};
-use crate::figure::{label_colour, shown_quantity};
+use crate::figure::label_colour;
 use crate::flow::stop;
 use crate::motion::{Case, Orbit};
 use crate::of::settle_case;
@@ -66,7 +67,8 @@ impl Basin {
         let at: Vec<(Coordinate, f64)> = at.collect();
         let case = explored.near(&at, asked.sweep()?)?.case;
         let mut axes = axes(asked, starts, around(explored, &case))?;
-        let told = [0, 1].map(|axis| axis_json(explored, &axes[axis]));
+        let units = Units::of(asked)?;
+        let told = [0, 1].map(|axis| axis_json(explored, &units, &axes[axis]));
         // Those of a study come with the slower first.
         axes.reverse();
         let mut begins = explored.study.case(0);
@@ -243,9 +245,9 @@ fn axis(asked: &Asked, coordinate: Coordinate, usual: [f64; 2]) -> Result<Axis, 
 }
 
 /// An axis of starts, its ends in the unit shown.
-fn axis_json(explored: &Explored, axis: &Axis) -> Value {
+fn axis_json(explored: &Explored, units: &Units, axis: &Axis) -> Value {
     let name = axis.name();
-    let it = shown_quantity(name, explored.archive.frame());
+    let it = units.shown(name, explored);
     let values = &axis.varying[0].values;
     let range = [values[0], values[SIDE - 1]].map(|value| value * it.factor);
     json!({ "name": name, "label": it.label, "factor": it.factor, "range": range })

@@ -5,14 +5,14 @@ use serde_json::{Value, json};
 use super::explored::Explored;
 use super::map::SETTINGS;
 use super::stored_diagram;
+use super::units::Units;
 use crate::description::{Chart, Description, Output};
-use crate::figure::shown_quantity;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT, section};
 use crate::store::{Design, has_branches, provenance};
 use crate::study::{Axis, Coordinate};
 
 /// The file in one object; values of axes in SI; `running` tells how far its run is.
-pub fn described(explored: &Explored, running: Value) -> Value {
+pub fn described(explored: &Explored, units: &Units, running: Value) -> Value {
     let Explored { archive, file, study, .. } = explored;
     let frame = archive.frame();
     let directions = frame.coordinate(DIRECTION.name).map(|it| &it.flags);
@@ -24,17 +24,18 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "title": if study.title.is_empty() { stem.as_ref() } else { study.title.as_str() },
         "file": file.display().to_string(),
         "cases": study.cases(),
-        "axes": study.axes().iter().map(|it| axis_json(explored, it)).collect::<Vec<_>>(),
-        "draws": explored.ranges().iter().map(|it| shown_json(explored, it.coordinate.name())).collect::<Vec<_>>(),
-        "diagrams": all_shown_json(explored, diagrams.iter().map(String::as_str)),
+        "axes": study.axes().iter().map(|it| axis_json(explored, units, it)).collect::<Vec<_>>(),
+        "draws": explored.ranges().iter().map(|it| units.json(it.coordinate.name(), explored)).collect::<Vec<_>>(),
+        "diagrams": units.all(diagrams.iter().map(String::as_str), explored),
         "directions": directions.collect::<Vec<_>>(),
-        "outputs": outputs_json(explored),
-        "constants": constants_json(explored),
+        "outputs": outputs_json(explored, units),
+        "constants": constants_json(explored, units),
         "is_design": Design::of(frame).is_some(),
         "has_curves": has_branches(frame),
-        "model": model_json(explored),
+        "model": model_json(explored, units),
         "running": running,
         "settings": SETTINGS.map(|it| it.0),
+        "units": units.offered(explored),
         "inherits": study.inherit().is_some(),
         "program": provenance::program(&frame.attributes),
         "study": frame.texts.get(STUDY_TEXT).map_or("", String::as_str),
@@ -42,70 +43,63 @@ pub fn described(explored: &Explored, running: Value) -> Value {
 }
 
 /// An axis of the study, with its values.
-fn axis_json(explored: &Explored, axis: &Axis) -> Value {
-    let mut told = shown_json(explored, axis.name());
+fn axis_json(explored: &Explored, units: &Units, axis: &Axis) -> Value {
+    let mut told = units.json(axis.name(), explored);
     told["values"] = json!(axis.single().map(|it| &it.values));
     told
 }
 
 /// What the file has of its cases.
-fn outputs_json(explored: &Explored) -> Vec<Value> {
+fn outputs_json(explored: &Explored, units: &Units) -> Vec<Value> {
     let kinds = [OUTCOME, PERIOD, ATTRACTOR].map(|it| it.name);
     let all = explored.model().outputs().map(|it| it.name()).chain(kinds);
     let kept = all.filter(|name| explored.archive.unit(name).is_some());
-    kept.map(|name| shown_json(explored, name)).collect()
+    kept.map(|name| units.json(name, explored)).collect()
 }
 
 /// The parameters that have an effect and do not vary, each with its value.
-fn constants_json(explored: &Explored) -> Vec<Value> {
+fn constants_json(explored: &Explored, units: &Units) -> Vec<Value> {
     let study = &explored.study;
     let varied = study.case_set.varied();
     let stated = study.base.stated().map(|(it, _)| it);
     let held =
         stated.filter(|it| !varied.contains(&Coordinate::Parameter(*it)) && study.has_effect(*it));
     let constants = held.map(|it| {
-        let mut constant = shown_json(explored, it.symbol());
+        let mut constant = units.json(it.symbol(), explored);
         constant["value"] = json!(study.base[it]);
         constant
     });
     constants.collect()
 }
 
-/// How figures show the quantity of this name.
-pub(super) fn shown_json(explored: &Explored, name: &str) -> Value {
-    let it = shown_quantity(name, explored.archive.frame());
-    json!({ "name": name, "label": it.label, "unit": it.unit, "factor": it.factor })
-}
-
 /// What the page has to know of the model: its starts, sections, states, histories and key numbers, as figures show them.
-fn model_json(explored: &Explored) -> Value {
+fn model_json(explored: &Explored, units: &Units) -> Value {
     let model: &'static Description = explored.model();
     let starts = Coordinate::starts(model).chain(Coordinate::phases(model).take(1));
     json!({
-        "starts": all_shown_json(explored, starts.map(Coordinate::name)),
-        "section": all_shown_json(explored, section(model).iter().map(|it| it.name)),
-        "state": (0..model.coordinates.len()).map(|at| state_json(explored, at)).collect::<Vec<_>>(),
-        "charts": model.motion.charts.iter().map(|it| chart_json(explored, it)).collect::<Vec<_>>(),
-        "portrait": model.motion.portrait.map(|names| all_shown_json(explored, names)),
+        "starts": units.all(starts.map(Coordinate::name), explored),
+        "section": units.all(section(model).iter().map(|it| it.name), explored),
+        "state": (0..model.coordinates.len()).map(|at| state_json(explored, units, at)).collect::<Vec<_>>(),
+        "charts": model.motion.charts.iter().map(|it| chart_json(explored, units, it)).collect::<Vec<_>>(),
+        "portrait": model.motion.portrait.map(|names| units.all(names, explored)),
         "keeps_histories": model.keeps_histories(),
-        "surface": model.impact_surface().map(|it| shown_json(explored, it.symbol())),
+        "surface": model.impact_surface().map(|it| units.json(it.symbol(), explored)),
         "meets_surface": model.signal_of_coordinate(0).map(|it| it.name()),
-        "costs": all_shown_json(explored, costs(explored).into_iter().map(Output::name)),
-        "key_outputs": with_errors_json(explored, model.key_outputs()),
-        "spectrum": with_errors_json(explored, model.spectrum()),
-        "main_output": shown_json(explored, model.main_output().name()),
+        "costs": units.all(costs(explored).into_iter().map(Output::name), explored),
+        "key_outputs": with_errors_json(explored, units, model.key_outputs()),
+        "spectrum": with_errors_json(explored, units, model.spectrum()),
+        "main_output": units.json(model.main_output().name(), explored),
     })
 }
 
-/// How figures show the quantities of these names.
-fn all_shown_json<'a>(explored: &Explored, names: impl IntoIterator<Item = &'a str>) -> Vec<Value> {
-    names.into_iter().map(|name| shown_json(explored, name)).collect()
-}
-
 /// How figures show outputs, with the names of their standard errors.
-fn with_errors_json(explored: &Explored, outputs: impl Iterator<Item = Output>) -> Vec<Value> {
+fn with_errors_json(
+    explored: &Explored,
+    units: &Units,
+    outputs: impl Iterator<Item = Output>,
+) -> Vec<Value> {
     let with_error = |output: Output| {
-        let mut told = shown_json(explored, output.name());
+        let mut told = units.json(output.name(), explored);
         told["error"] = json!(explored.model().error_of(output).map(Output::name));
         told
     };
@@ -125,10 +119,10 @@ fn costs(explored: &Explored) -> Vec<Output> {
 }
 
 /// A coordinate of the state, by its name, in the unit of its history.
-fn state_json(explored: &Explored, place: usize) -> Value {
+fn state_json(explored: &Explored, units: &Units, place: usize) -> Value {
     let model = explored.model();
     let name = model.coordinates[place].name;
-    let mut told = shown_json(explored, model.coordinate_along(place).name);
+    let mut told = units.json(model.coordinate_along(place).name, explored);
     told["name"] = json!(name);
     let unit = told["unit"].as_str().unwrap_or_default();
     told["label"] =
@@ -137,8 +131,8 @@ fn state_json(explored: &Explored, place: usize) -> Value {
 }
 
 /// A chart with its signals, each with its name without the unit, which the label of the chart has.
-fn chart_json(explored: &Explored, chart: &Chart) -> Value {
-    let signals: Vec<Value> = chart.signals.iter().map(|name| shown_json(explored, name)).collect();
+fn chart_json(explored: &Explored, units: &Units, chart: &Chart) -> Value {
+    let signals: Vec<Value> = chart.signals.iter().map(|name| units.json(name, explored)).collect();
     let unit = signals.first().and_then(|it| it["unit"].as_str()).unwrap_or_default().to_owned();
     let in_unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
     let label = format!("{}{in_unit}", chart.title);

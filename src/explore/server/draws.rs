@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::answer::Refusal;
 use super::asked::Asked;
-use super::described::shown_json;
 use super::explored::Explored;
+use super::units::Units;
 use crate::store::Dataset;
 use crate::study::{Drawing, DrawingKind, Spacing};
 
@@ -28,25 +28,27 @@ pub fn draws(explored: &Explored, asked: &Asked) -> Result<Value, Refusal> {
     let drawn = ranges.iter().map(|it| it.coordinate.name());
     let names: BTreeSet<String> = drawn.chain(outputs.iter().copied()).map(str::to_owned).collect();
     let dataset = explored.part(names, &Drawing::new("draws", DrawingKind::Map))?;
+    let units = Units::of(asked)?;
+    let column = |name: &str, is_log: bool| {
+        let mut told = units.json(name, explored);
+        told["log"] = json!(is_log);
+        told["values"] = json!(values(&dataset, name));
+        told
+    };
     let of_draws = ranges.iter().map(|range| {
         let is_log = range.spacing == Spacing::Logarithmic;
-        column(explored, &dataset, range.coordinate.name(), is_log)
+        column(range.coordinate.name(), is_log)
     });
     Ok(json!({
         "cases": explored.study.cases(),
         "draws": of_draws.collect::<Vec<_>>(),
-        "outputs": outputs.iter().map(|it| column(explored, &dataset, it, false)).collect::<Vec<_>>(),
+        "outputs": outputs.iter().map(|it| column(it, false)).collect::<Vec<_>>(),
     }))
 }
 
-/// A quantity of the first cases as figures show it, with its values in SI.
-fn column(explored: &Explored, dataset: &Dataset, name: &str, is_log: bool) -> Value {
+/// A quantity of the first cases in SI.
+fn values(dataset: &Dataset, name: &str) -> Vec<Option<f64>> {
     let variable = dataset.variable(name).or_else(|| dataset.coordinate(name));
     let values = variable.map(|it| it.values.to_real()).into_iter().flatten();
-    let values: Vec<Option<f64>> =
-        values.take(MOST_CASES).map(|it| Some(it).filter(|it| it.is_finite())).collect();
-    let mut told = shown_json(explored, name);
-    told["log"] = json!(is_log);
-    told["values"] = json!(values);
-    told
+    values.take(MOST_CASES).map(|it| Some(it).filter(|it| it.is_finite())).collect()
 }

@@ -3,7 +3,8 @@
 use super::answer::Refusal;
 use super::asked::Asked;
 use super::explored::Explored;
-use crate::figure::shown_quantity;
+use super::units::Units;
+use crate::figure::ShownQuantity;
 use crate::quantity::Dimension;
 use crate::study::appearance::SettingText;
 use crate::study::{Setting, Settings};
@@ -25,15 +26,15 @@ pub fn limited(
 ) -> Result<(), Refusal> {
     let Some(text) = asked.text(key) else { return Ok(()) };
     let unfit = |why: String| Refusal::unfit(format!("{key}: {why}"));
-    let parts = ends(explored, name, text).map_err(unfit)?;
+    let parts = ends(&Units::of(asked)?.shown(name, explored), text).map_err(unfit)?;
     let dimension = Dimension::Number;
     let set = settings.entry(name.to_owned()).or_default();
     set.put(Setting::Limits, SettingText { parts: &parts, dimension, read }).map_err(unfit)
 }
 
-/// The ends of the quantity `name` in SI, from a text that has them in the unit shown.
-pub fn ends(explored: &Explored, name: &str, text: &str) -> Result<Vec<String>, String> {
-    let factor = shown_quantity(name, explored.archive.frame()).factor;
+/// The ends of a quantity in SI, from a text that has them in the unit shown.
+pub fn ends(quantity: &ShownQuantity, text: &str) -> Result<Vec<String>, String> {
+    let factor = quantity.factor;
     let ends = text.split(',').map(|it| read(it, Dimension::Number));
     let ends: Vec<f64> = ends.collect::<Result<_, String>>()?;
     Ok(ends.into_iter().map(|it| (it / factor).to_string()).collect())

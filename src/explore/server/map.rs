@@ -9,6 +9,7 @@ use super::answer::{Refusal, bytes, json as json_answer};
 use super::asked::Asked;
 use super::explored::Explored;
 use super::limits::{ends, limited, read};
+use super::units::Units;
 use crate::figure::{
     ColouredMap, MapAxis, MapColours, MapLine, MapPoint, TradeOffAxis, coloured_map, over_map,
     over_map_variables, trade_off_cells,
@@ -74,6 +75,7 @@ pub fn drawing(explored: &Explored, asked: &Asked, kind: DrawingKind) -> Result<
             None => {}
         }
     }
+    Units::of(asked)?.set(&mut settings, explored);
     Ok(Drawing { x, y, of, at, sweep, curves, settings, ..Drawing::new(name, kind) })
 }
 
@@ -87,7 +89,7 @@ fn settings(explored: &Explored, asked: &Asked, of: &[String]) -> Result<Setting
         let unfit = |why: String| Refusal::unfit(format!("{key}: {why}"));
         let mut parts = vec![text.to_owned()];
         if setting == Setting::Limits {
-            parts = ends(explored, name, text).map_err(unfit)?;
+            parts = ends(&Units::of(asked)?.shown(name, explored), text).map_err(unfit)?;
         }
         let dimension = Dimension::Number;
         set.put(setting, SettingText { parts: &parts, dimension, read }).map_err(unfit)?;

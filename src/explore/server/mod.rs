@@ -22,6 +22,7 @@ mod sensitivity;
 mod source;
 mod stored_basin;
 mod stored_diagram;
+mod units;
 mod written;
 
 use std::io;
@@ -52,6 +53,7 @@ use line::Line;
 use motion::Clicked;
 pub use private_folder::PrivateFolder;
 pub use source::Source;
+use units::Units;
 use written::Written;
 
 /// Connections at once; more wait.
@@ -208,15 +210,15 @@ async fn asset(Path(name): Path<String>) -> Result<Response, Refusal> {
     assets::asset(&name).ok_or_else(Refusal::missing)
 }
 
-async fn file(State(shared): State<Shared>) -> Result<Response, Refusal> {
-    let source = shared.source.clone();
-    shared.computations.readings.answer(move || described_now(&source)).await
+async fn file(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
+    let (asked, source) = (Asked::new(pairs)?, shared.source.clone());
+    shared.computations.readings.answer(move || described_now(&source, &asked)).await
 }
 
 /// What the page is told of the file as it is now, and how far its run is.
-fn described_now(source: &Source) -> Result<Response, Refusal> {
-    let (running, explored) = (source.progress(), source.explored()?);
-    explored.answer(|it| Ok(json(&described::described(it, running))))
+fn described_now(source: &Source, asked: &Asked) -> Result<Response, Refusal> {
+    let (units, running, explored) = (Units::of(asked)?, source.progress(), source.explored()?);
+    explored.answer(|it| Ok(json(&described::described(it, &units, running))))
 }
 
 /// Opens the file anew, after another program has changed it.

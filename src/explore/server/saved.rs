@@ -15,6 +15,7 @@ use super::line::{self, Line};
 use super::map;
 use super::motion;
 use super::stored_diagram;
+use super::units::Units;
 use crate::campaign::results_in_memory;
 use crate::figure::{Format, Place, draw};
 use crate::flow::stop;
@@ -32,7 +33,7 @@ pub fn figure(explored: &Explored, asked: &Asked, place: &Path) -> Result<Respon
     let (format, content) = format(asked)?;
     let kind = asked.text("kind").unwrap_or_default();
     let known = DrawingKind::NAMES.iter().find(|it| it.0 == kind).map(|it| it.1);
-    let (results, drawing) = match known {
+    let (results, mut drawing) = match known {
         Some(kind @ (DrawingKind::Map | DrawingKind::TradeOff)) => {
             let drawing = map::drawing(explored, asked, kind)?;
             (explored.dataset(&drawing)?, drawing)
@@ -61,6 +62,7 @@ pub fn figure(explored: &Explored, asked: &Asked, place: &Path) -> Result<Respon
             return Err(Refusal::unfit(why));
         }
     };
+    Units::of(asked)?.set(&mut drawing.settings, explored);
     let folder = tempfile::tempdir_in(place).map_err(Refusal::failed)?;
     let place = Place { folder: folder.path(), formats: &[format], overwrite: false };
     let files = draw(&*results, &drawing, &place).map_err(Refusal::undrawn)?;

@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 
 use super::answer::{Refusal, json as json_answer};
 use super::asked::Asked;
-use super::described::shown_json;
 use super::explored::Explored;
+use super::units::Units;
 use crate::campaign::{NO_DESIGN, OutputSensitivity, Resampling, Sensitivity, SobolIndex};
 use crate::description::Output;
 use crate::store::Design;
@@ -21,7 +21,7 @@ pub fn sensitivity(explored: &Explored, asked: &Asked) -> Result<Response, Refus
     }
     let outputs = explored.model().key_outputs().filter(|it| explored.has(*it));
     let outputs: Vec<Output> = outputs.collect();
-    let resampling = Resampling::default();
+    let (resampling, units) = (Resampling::default(), Units::of(asked)?);
     let asked = Sensitivity {
         archive: &explored.archive,
         file: &explored.file,
@@ -30,18 +30,20 @@ pub fn sensitivity(explored: &Explored, asked: &Asked) -> Result<Response, Refus
         threads: None,
     };
     let answer = asked.answer().map_err(Refusal::failed)?;
-    let quantities = explored.ranges().iter().map(|it| shown_json(explored, it.coordinate.name()));
-    let found = answer.outputs.iter().map(|(output, found)| output_json(explored, *output, found));
+    let quantities = explored.ranges().iter().map(|it| it.coordinate.name());
+    let found = answer.outputs.iter();
+    let found =
+        found.map(|(output, found)| with_indices(units.json(output.name(), explored), found));
     Ok(json_answer(&json!({
-        "quantities": quantities.collect::<Vec<_>>(),
+        "quantities": units.all(quantities, explored),
         "confidence": resampling.confidence,
         "base_samples": answer.design.base_samples,
         "outputs": found.collect::<Vec<_>>(),
     })))
 }
 
-fn output_json(explored: &Explored, output: Output, found: &OutputSensitivity) -> Value {
-    let mut told = shown_json(explored, output.name());
+/// What is told of an output, with its indices.
+fn with_indices(mut told: Value, found: &OutputSensitivity) -> Value {
     told["rows"] = json!(found.rows);
     told["left_out"] = json!(found.rows_left_out);
     match &found.indices {

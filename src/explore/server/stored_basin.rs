@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 
 use super::answer::{Refusal, json as json_answer};
 use super::asked::Asked;
-use super::described::shown_json;
 use super::explored::Explored;
 use super::map;
+use super::units::Units;
 use crate::figure::{
     BasinAttractor, BasinCurve, BasinSaddle, OverBasin, over_basin, over_basin_variables,
 };
@@ -22,14 +22,14 @@ pub fn stored_basin(explored: &Explored, asked: &Asked) -> Result<Response, Refu
     let names = over_basin_variables(&drawing, explored.model());
     let dataset = explored.part(names, &drawing)?;
     let told = over_basin(&*dataset, &drawing).map_err(Refusal::undrawn)?;
-    Ok(json_answer(&basin_json(explored, &told)))
+    Ok(json_answer(&basin_json(explored, &Units::of(asked)?, &told)))
 }
 
-fn basin_json(explored: &Explored, told: &OverBasin) -> Value {
+fn basin_json(explored: &Explored, units: &Units, told: &OverBasin) -> Value {
     let outputs = told.attractors.first().map_or(&[][..], |it| &it.outputs);
-    let outputs = outputs.iter().map(|(output, _)| shown_json(explored, output.name()));
+    let outputs = units.all(outputs.iter().map(|(output, _)| output.name()), explored);
     json!({
-        "outputs": outputs.collect::<Vec<_>>(),
+        "outputs": outputs,
         "attractors": told.attractors.iter().map(attractor_json).collect::<Vec<_>>(),
         "saddles": told.saddles.iter().map(saddle_json).collect::<Vec<_>>(),
         "stable": told.stable.iter().map(curve_json).collect::<Vec<_>>(),

@@ -8,6 +8,7 @@ use super::asked::Asked;
 use super::explored::Explored;
 use super::limits::limited;
 use super::map::key_json;
+use super::units::Units;
 use crate::figure::{
     ColouredDiagram, DiagramBranch, DiagramCase, DiagramPanel, DiagramRamp, DiagramSpecial,
     coloured_diagram, coloured_diagram_variables, diagram_axes, diagram_axes_variables,
@@ -55,6 +56,7 @@ pub fn drawing(explored: &Explored, asked: &Asked) -> Result<Drawing, Refusal> {
         drawing.colour_by = Some(by.to_owned()).filter(|it| !it.is_empty());
     }
     limited(explored, asked, "limits-x", &x, &mut drawing.settings)?;
+    Units::of(asked)?.set(&mut drawing.settings, explored);
     drawing.x = Some(x);
     Ok(drawing)
 }
