@@ -153,7 +153,7 @@ fn write_attractors(page: &mut Page, archive: &Archive) -> Result<(), CampaignEr
         let shown = |value: Option<f64>| Cell::text(value.map_or(String::new(), digits));
         let period =
             of(&periods).filter(|it| *it >= 1.0).map_or(String::new(), |it| it.to_string());
-        let first = [Cell::text((number + 1).to_string()), Cell::text(kind), Cell::text(period)];
+        let first = [Cell::text(number.to_string()), Cell::text(kind), Cell::text(period)];
         let percent_of =
             |all: &[f64]| Cell::text(of(all).map_or(String::new(), |it| percent(100.0 * it)));
         let last = [percent_of(&shares), percent_of(&errors)];
@@ -166,7 +166,7 @@ fn write_attractors(page: &mut Page, archive: &Archive) -> Result<(), CampaignEr
         outputs.iter().map(|it| Column::number(&with_unit(&called(it.quantity()), it.unit())));
     let last = [Column::number("share of the starts [%]"), Column::number("standard error [%]")];
     let table = Table {
-        caption: "Attractors of the starts, counted as in figures, and the shares of the starts that lead to them.".to_owned(),
+        caption: "Attractors of the starts, by their numbers in the file, and the shares of the starts that lead to them.".to_owned(),
         columns: first.into_iter().chain(measured).chain(last).collect(),
         rows: rows.collect(),
     };

@@ -110,7 +110,7 @@ impl<'a> Basins<'a> {
         let without = (0..plane.count()).map(|case| outcomes.failed(case)).collect();
         let not_yet = (0..plane.count()).map(|case| outcomes.missing(case)).collect();
         let inferred = inferred::inferred(&outcomes, plane.count());
-        let attractors = KnownAttractors::of(view);
+        let attractors = KnownAttractors::held(view)?;
         let colours = Colours::of(view)?;
         Ok(Basins {
             numbers,

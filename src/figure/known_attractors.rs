@@ -1,5 +1,6 @@
 //! What the table of attractors in a file of results tells of each of them.
 
+use super::error::FigureError;
 use super::ticks::significant;
 use super::view::View;
 use crate::store::catalogue::{
@@ -26,19 +27,41 @@ pub struct KnownAttractors<'a> {
 }
 
 impl<'a> KnownAttractors<'a> {
-    /// The table of the results.
-    pub fn of(view: &View<'a>) -> KnownAttractors<'a> {
+    /// The table of the results; of those that have a row for each value of an axis, that where the axis is held.
+    ///
+    /// Fails where a column does not fit its dimensions.
+    pub fn held(view: &View<'a>) -> Result<KnownAttractors<'a>, FigureError> {
+        KnownAttractors::read(view, |entry| match view.dataset.variable(entry.name) {
+            Some(_) => Ok(view.take(entry.name, &[])?.into_iter().collect()),
+            None => Ok(Vec::new()),
+        })
+    }
+
+    /// The tables of all values of an axis, one after the other.
+    pub fn along(view: &View<'a>) -> Result<KnownAttractors<'a>, FigureError> {
+        KnownAttractors::read(view, |entry| Ok(view.column(entry)))
+    }
+
+    fn read(
+        view: &View<'a>,
+        column: impl Fn(Entry) -> Result<Vec<f64>, FigureError>,
+    ) -> Result<KnownAttractors<'a>, FigureError> {
         let model = view.model();
         let speed = model.has_trade_off().then(|| Entry::of_output(model.speed()));
-        let of_attractors = speed.map(|entry| view.column(Place::Attractor.of(entry)));
-        KnownAttractors {
+        let of_attractors = speed.map(|entry| column(Place::Attractor.of(entry)));
+        Ok(KnownAttractors {
             kinds: view.flags(ATTRACTOR_KIND.name),
-            codes: view.column(ATTRACTOR_KIND),
-            periods: view.column(ATTRACTOR_PERIOD),
-            speeds: of_attractors.unwrap_or_default(),
-            shares: view.column(ATTRACTOR_SHARE),
-            errors: view.column(ATTRACTOR_SHARE_ERROR),
-        }
+            codes: column(ATTRACTOR_KIND)?,
+            periods: column(ATTRACTOR_PERIOD)?,
+            speeds: of_attractors.transpose()?.unwrap_or_default(),
+            shares: column(ATTRACTOR_SHARE)?,
+            errors: column(ATTRACTOR_SHARE_ERROR)?,
+        })
+    }
+
+    /// The share of the starts that lead to the attractor at a place of the table, and its standard error; NaN where it is not known.
+    pub fn share(&self, place: usize) -> [f64; 2] {
+        [&self.shares, &self.errors].map(|all| all.get(place).copied().unwrap_or(f64::NAN))
     }
 
     /// The name of the kind of motion at a place of the table.

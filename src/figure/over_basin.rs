@@ -16,9 +16,9 @@ use super::view::View;
 use crate::description::{Description, Output};
 use crate::store::catalogue::{
     ATTRACTOR_CASE, ATTRACTOR_INDEX, ATTRACTOR_MULTIPLIER_IMAG, ATTRACTOR_MULTIPLIER_REAL,
-    ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, EDGE_HIGH, EDGE_INDEX, EDGE_LOW, EDGE_MULTIPLIER_IMAG,
-    EDGE_MULTIPLIER_REAL, EDGE_PERIOD, EDGE_RESIDUAL, Entry, Place, STABLE_EDGE, STABLE_LEFT,
-    STABLE_RIGHT, UNSTABLE_ATTRACTOR, UNSTABLE_EDGE, edges,
+    EDGE_HIGH, EDGE_INDEX, EDGE_LOW, EDGE_MULTIPLIER_IMAG, EDGE_MULTIPLIER_REAL, EDGE_PERIOD,
+    EDGE_RESIDUAL, Entry, Place, STABLE_EDGE, STABLE_LEFT, STABLE_RIGHT, UNSTABLE_ATTRACTOR,
+    UNSTABLE_EDGE, edges,
 };
 use crate::study::Drawing;
 
@@ -127,7 +127,7 @@ pub fn over_basin<'a>(
     let [of_unstable, to] =
         [UNSTABLE_EDGE, UNSTABLE_ATTRACTOR].map(|it| Rows::new(view.dataset, it.name));
     Ok(OverBasin {
-        attractors: attractors(&view, &plane, &Colours::of(&view)?),
+        attractors: attractors(&view, &plane, &Colours::of(&view)?)?,
         saddles: saddles(&view, &plane),
         stable: parted(&curves.stable, &of_stable, &[left, right]),
         unstable: parted(&curves.unstable, &of_unstable, &[to]),
@@ -141,14 +141,17 @@ pub fn over_basin<'a>(
 }
 
 /// The attractors of the table.
-fn attractors(view: &View<'_>, plane: &Plane<'_>, colours: &Colours) -> Vec<BasinAttractor> {
-    let known = KnownAttractors::of(view);
+fn attractors(
+    view: &View<'_>,
+    plane: &Plane<'_>,
+    colours: &Colours,
+) -> Result<Vec<BasinAttractor>, FigureError> {
+    let known = KnownAttractors::held(view)?;
     let count = view.coordinate_values(ATTRACTOR_INDEX.name).len();
     let mut points = points(in_plane(view, plane, &of_attractors(view.model())), count);
     let parts = [ATTRACTOR_MULTIPLIER_REAL, ATTRACTOR_MULTIPLIER_IMAG];
     let parts = parts.map(|entry| Rows::new(view.dataset, entry.name));
-    let [case, share, error] = [ATTRACTOR_CASE, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR]
-        .map(|entry| Rows::new(view.dataset, entry.name));
+    let case = Rows::new(view.dataset, ATTRACTOR_CASE.name);
     let outputs = view.model().key_outputs().map(|output| {
         let entry = Place::Attractor.of(Entry::of_output(output));
         (output, Rows::new(view.dataset, entry.name))
@@ -160,11 +163,11 @@ fn attractors(view: &View<'_>, plane: &Plane<'_>, colours: &Colours) -> Vec<Basi
         motion: known.motion(number),
         case: whole(case.one(number)),
         outputs: outputs.iter().map(|(output, rows)| (*output, rows.one(number))).collect(),
-        share: [share.one(number), error.one(number)],
+        share: known.share(number),
         multipliers: multipliers(&parts, number),
         points: std::mem::take(&mut points[number]),
     });
-    all.collect()
+    Ok(all.collect())
 }
 
 /// The saddles of the table.

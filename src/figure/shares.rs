@@ -231,7 +231,7 @@ impl<'a> Bands<'a> {
             shares,
             error,
             incomplete,
-            attractors: KnownAttractors::of(view),
+            attractors: KnownAttractors::along(view)?,
             speeds: Speeds::of(view),
             colours: Colours::of(view)?,
         })

@@ -10,6 +10,7 @@ use capsulemap::run::{self, AttractorRow, AttractorTable, Attractors, Machine, R
 use capsulemap::store;
 use capsulemap::study::Study;
 
+use super::explorer::Explorer;
 use super::program::{TWO_MOTIONS, WorkDir};
 
 /// A study over starts of the capsule with two motions, by the values of two axes.
@@ -258,4 +259,52 @@ fn early_decisions_have_the_same_bits_on_any_machine() {
     let some: Vec<usize> = (0..all.len()).step_by(37).collect();
     let alone = told(&on(2, Instructions::widest(), &some));
     assert!(some.iter().zip(alone).all(|(case, record)| record == expected[*case]));
+}
+
+/// The shares at a value of a parameter are counted among the starts there, in the figure and on the page.
+#[test]
+fn a_figure_of_basins_tells_the_shares_at_the_value_that_is_held() {
+    let work = WorkDir::new();
+    let axis = |name: &str, most: &str| {
+        format!("[[axes]]\nname = \"{name}\"\nfrom = \"-{most}\"\nto = \"{most}\"\npoints = 24\n")
+    };
+    let omega = "[[axes]]\nname = \"omega\"\nvalues = [\"153 rad/s\", \"158 rad/s\"]\n";
+    let starts = axis("start_r", "6 mm") + &axis("start_y1", "1.5 m/s");
+    work.put("two.toml", format!("{TWO_MOTIONS}{omega}{starts}"));
+    work.run(&["sweep", "two.toml", "--output", "two.h5", "--no-figures"]).done();
+    let file = store::read(&work.path("two.h5")).expect("results");
+    let labels = file.variable("attractor").expect("numbers").values.to_real();
+    let explorer = Explorer::new(&work, &["two.h5"]);
+    let mut told = Vec::new();
+    for (place, omega) in [(0, "153"), (1, "158")] {
+        let here = labels.index_axis(ndarray::Axis(0), place);
+        let counts = [0.0, 1.0].map(|number| here.iter().filter(|it| **it == number).count());
+        let shares = counts.map(|count| count as f64 / here.len() as f64);
+        assert!(shares.iter().all(|it| *it > 0.1), "{shares:?}");
+        let figure = format!(
+            "\"$0\" figure two.h5 --kind basin --at 'omega={omega} rad/s' --name b{omega} --folder . --formats svg"
+        );
+        work.shell(&figure).done();
+        let svg = fs::read_to_string(work.path(&format!("b{omega}.svg"))).expect("a figure");
+        let basins = format!("/api/stored-basin?x=start_r&y=start_y1&omega={omega}");
+        let page = explorer.object(&basins);
+        for (number, share) in shares.into_iter().enumerate() {
+            let words = format!("attractor {number}: period 1, ");
+            let (_, rest) = svg.split_once(&words).expect("it is in the legend");
+            let written: f64 = rest
+                .split_once(" ±")
+                .expect("a share")
+                .0
+                .rsplit(' ')
+                .next()
+                .unwrap_or("")
+                .parse()
+                .expect("a number");
+            assert!((written - 100.0 * share).abs() < 0.06, "{omega}: {written} % for {share}");
+            let on_page = page["attractors"][number]["share"][0].as_f64().expect("a share");
+            assert!((on_page - share).abs() < 1e-12, "{omega}: {on_page} for {share}");
+        }
+        told.push(shares);
+    }
+    assert!((told[0][0] - told[1][0]).abs() > 0.05, "the shares differ: {told:?}");
 }
