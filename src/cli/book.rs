@@ -79,7 +79,7 @@ pub fn page(name: &str) -> Option<Page> {
 /// The pages that have tables of keys of a study, those of the study file first.
 pub fn of_studies() -> impl Iterator<Item = Page> {
     let in_folder = PAGES.iter().copied().filter(|it| it.name.starts_with("study/"));
-    in_folder.chain(["paths", "ramps"].into_iter().filter_map(page))
+    in_folder.chain(["paths", "ramps", "family"].into_iter().filter_map(page))
 }
 
 impl Page {

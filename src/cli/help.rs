@@ -6,7 +6,7 @@ use super::book::{self, OUTPUTS, Row};
 use super::failure::Failure;
 use super::terminal::print;
 use crate::quantity::Dimension;
-use crate::quantity::units::expectation;
+use crate::quantity::units::{expectation, unit};
 use crate::study::document::nearest;
 
 const EXAMPLES: &str = "\
@@ -44,7 +44,8 @@ impl Help {
             ["output"] => print(&all_outputs()),
             ["output", name] => print(&of_output(name)?),
             // All of them are few.
-            ["unit"] | ["unit", _] => print(&units()),
+            ["unit"] => print(&units()),
+            ["unit", name] => print(&of_unit(name)?),
             ["book"] => print(&contents()),
             ["book", name] => print(&of_page(name)?),
             [command] => match program.find_subcommand_mut(command) {
@@ -55,7 +56,7 @@ impl Help {
                 None => {
                     let commands = program.get_subcommands().map(Command::get_name);
                     let known = commands.chain(["study", "output", "unit", "book"]);
-                    let allowed = "a command, study, output, unit or book";
+                    let allowed = "a command; study, output, unit or book and a name; answers to errors: capsulemap help book errors";
                     Err(unknown("topic", command, known, allowed))
                 }
             },
@@ -183,6 +184,20 @@ fn units() -> String {
     let lines = Dimension::ALL.into_iter().map(|it| expectation(it) + "\n");
     lines.collect::<String>()
         + "\nQuantities are texts with their unit, as \"18.96 kN/m\"; powers may be written as s2 or s^2.\n"
+}
+
+/// The dimensions that have a unit, each with all of its units.
+fn of_unit(name: &str) -> Result<String, Failure> {
+    let of: Vec<Dimension> = Dimension::ALL
+        .into_iter()
+        .filter(|it| !name.is_empty() && unit(name, *it).is_some())
+        .collect();
+    match of.is_empty() {
+        true => Err(Failure::request(format!(
+            "unknown unit \"{name}\" (allowed: capsulemap help unit lists them)"
+        ))),
+        false => Ok(of.into_iter().map(|it| expectation(it) + "\n").collect()),
+    }
 }
 
 /// The pages of the book.

@@ -35,6 +35,14 @@ pub fn summary(
             writeln!(text, "  {} computed ({share:.2} %), the others inferred", count(computed));
     }
     text.push_str(&outcomes(&summaries));
+    if by_outcome(&summaries).iter().any(|it| it.0 == Outcome::Undecided) {
+        let (settle, tell) = (study.protocol.max_cycles, study.protocol.exponent_cycles);
+        let _ = writeln!(
+            text,
+            "    not settled within max_cycles = {settle}, nor told from chaos by exponent_cycles = {tell} more; \
+             capsulemap help study max_cycles"
+        );
+    }
     if missing > 0 {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "  {:<14} {}", "missing", count(missing));

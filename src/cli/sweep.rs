@@ -122,7 +122,7 @@ impl Sweep {
                 Ok(())
             }
             Done::Shared(blocks) => {
-                self.part_with(task, &blocks);
+                self.part_with(task, &blocks, study.blocks());
                 Ok(())
             }
         }
@@ -210,9 +210,13 @@ impl Sweep {
         })
     }
 
-    /// The end of a task.
-    fn part_with(&self, task: Task, blocks: &Path) {
+    /// The end of a task of a study with `count` blocks.
+    fn part_with(&self, task: Task, blocks: &Path, count: usize) {
         let shown = printable(blocks);
+        if task.number > count {
+            notify(&format!("{task}: no block is its own, as the study has {count}"));
+            return;
+        }
         let join = study_arguments(&self.study, self.output.as_deref());
         notify(&format!(
             "{task}: its blocks are in {shown}; once all tasks are done: capsulemap join {join}"

@@ -12,8 +12,9 @@ use crate::study::{AttractorColours, Colour, Coordinate};
 
 /// How much paper the colour of a basin has, so that the points of its attractor stand out.
 const TINT: f64 = 0.45;
-/// The same of the colours that figures choose: so that basins can be told apart in grey, too.
-const TINTS: [f64; ATTRACTORS.len()] = [0.30, 0.65, 0.40, 0.75, 0.20, 0.85, 0.15];
+/// The same of the colours that figures choose: the least distance of two in CIELAB is 20, also to eyes that take red for green, and the first
+/// three can be told apart in grey.
+const TINTS: [f64; ATTRACTORS.len()] = [0.30, 0.60, 0.80, 0.20, 0.10, 0.35, 0.20];
 
 /// The colours of the attractors along the line of the results that a figure shows.
 #[derive(Debug, Clone, PartialEq)]

@@ -19,9 +19,9 @@ use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
 use super::section_points::{
-    self, RADIUS, SectionPoint, behind, draw_saddles, draw_section_points, saddles, section_points,
+    self, SectionPoint, behind, draw_saddles, draw_section_points, saddles, section_points,
 };
-use super::style::{INK, NOT_YET, OTHER_ATTRACTOR, REFERENCE_WIDTH, UNDECIDED};
+use super::style::{INK, NOT_YET, OTHER_ATTRACTOR, POINT_RADIUS, REFERENCE_WIDTH, UNDECIDED};
 use super::text::Text;
 use super::view::View;
 use crate::description::Description;
@@ -182,15 +182,15 @@ impl<'a> Basins<'a> {
         // A plane of all coordinates of a start is no projection.
         let is_projected = starts(model).len() > 2;
         let mut legend = Vec::new();
-        if !self.points.is_empty() {
+        if let Some(point) = self.points.first() {
             let more = if is_projected { ", projected onto the plane" } else { "" };
             let words = Text::plain(&format!("section points of the orbits{more}"));
-            legend.push((Mark::Disc(INK, RADIUS), words));
+            legend.push((Mark::Rimmed(point.colour), words));
         }
         if !self.saddles.is_empty() {
             let more = if is_projected { ", projected alike" } else { "" };
             let words = Text::plain(&format!("saddles on the boundary{more}"));
-            legend.push((Mark::Ring(INK, RADIUS), words));
+            legend.push((Mark::Ring(INK, POINT_RADIUS), words));
         }
         if self.behind > 0 {
             let words = format!("of these points, behind others: {}", self.behind);

@@ -230,8 +230,11 @@ impl<'a> Diagram<'a> {
         let first = clouds.iter().flatten().flatten().next();
         let of_lines = lines.iter().map(BranchLines::legend).max_by_key(Vec::len);
         let of_lines = of_lines.unwrap_or_default();
-        if let (true, false, Some(dot)) = (legend.is_empty(), of_lines.is_empty(), first) {
-            legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("settled motion")));
+        // Where other marks are named, points are, too.
+        let has_others = !of_lines.is_empty() || legend.iter().any(|it| it.0 != Mark::Nothing);
+        let is_named = legend.iter().any(|(mark, _)| matches!(mark, Mark::Disc(..)));
+        if let (true, false, true, Some(dot)) = (has_others, is_named, paint.is_none(), first) {
+            legend.insert(0, (Mark::Disc(dot.colour, 1.3), Text::plain("settled motion")));
         }
         // What the sweep and the branches both have is named once.
         let known: Vec<Mark> = legend.iter().map(|(mark, _)| *mark).collect();

@@ -6,7 +6,9 @@ use super::canvas::{Anchor, Canvas, Stroke};
 use super::codim2_symbol::{Codim2Symbol, RING};
 use super::geometry::{Point, Rect};
 use super::raster::{Fill, Raster};
-use super::style::{CURVE_WIDTH, HEADER, INK, LABEL_SIZE, MINOR_WIDTH, SMALL_SIZE};
+use super::style::{
+    CURVE_WIDTH, HEADER, INK, LABEL_SIZE, MINOR_WIDTH, PAPER, POINT_RADIUS, POINT_RIM, SMALL_SIZE,
+};
 use super::symbol::Symbol;
 use super::text::Text;
 
@@ -19,6 +21,8 @@ pub enum Mark {
     Tick(Stroke),
     /// A disc.
     Disc(RGBColor, f64),
+    /// A disc of the colour with a rim that stands out on areas.
+    Rimmed(RGBColor),
     /// A ring.
     Ring(RGBColor, f64),
     /// An area.
@@ -42,7 +46,9 @@ impl Mark {
     /// Width in a legend [pt].
     fn width(self) -> f64 {
         match self {
-            Mark::Disc(..) | Mark::Ring(..) | Mark::Tick(_) | Mark::Symbol(_) => POINT_WIDTH,
+            Mark::Disc(..) | Mark::Rimmed(_) | Mark::Ring(..) | Mark::Tick(_) | Mark::Symbol(_) => {
+                POINT_WIDTH
+            }
             Mark::Nothing => 0.0,
             Mark::Codim2(_) => 2.0 * RING,
             Mark::Line(_) | Mark::Patch(_) | Mark::Filled(_) => MARK_WIDTH,
@@ -187,6 +193,13 @@ pub fn legend_width(legend: &[Entry]) -> f64 {
     entries.sum::<f64>() + legend.len().saturating_sub(1) as f64 * ENTRY_GAP
 }
 
+/// Draws a disc with a rim of ink and one of paper, so that it stands out on any colour.
+pub fn rimmed_disc(canvas: &mut Canvas, at: Point, colour: RGBColor) {
+    canvas.discs(&[(at, PAPER)], POINT_RADIUS + POINT_RIM);
+    canvas.discs(&[(at, INK)], POINT_RADIUS);
+    canvas.discs(&[(at, colour)], POINT_RADIUS - POINT_RIM);
+}
+
 /// A mark of a legend, from its left end at the height of its middle.
 pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
     let (left, middle) = at;
@@ -204,6 +217,7 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
             canvas.line(&[(x, y - 3.0), (x, y + 3.0)], stroke);
         }
         Mark::Disc(colour, radius) => canvas.discs(&[(centre, colour)], radius),
+        Mark::Rimmed(colour) => rimmed_disc(canvas, centre, colour),
         Mark::Ring(colour, radius) => {
             canvas.rings(&[centre], radius, Stroke::solid(colour, CURVE_WIDTH));
         }

@@ -5,19 +5,15 @@ use plotters::style::RGBColor;
 use super::attractor_colours::Colours;
 use super::canvas::{Canvas, Stroke};
 use super::geometry::Point;
+use super::header::rimmed_disc;
 use super::kind::Names;
 use super::panel::Panel;
 use super::plane::Plane;
-use super::style::{INK, PAPER};
+use super::style::{INK, PAPER, POINT_RADIUS, POINT_RIM};
 use super::view::View;
 use crate::description::Description;
 use crate::store::catalogue::{ATTRACTOR_INDEX, Entry, Place, edges, section};
 use crate::study::Coordinate;
-
-/// Radius of section points [pt].
-pub const RADIUS: f64 = 2.4;
-/// Width of the rim of a section point [pt].
-const RIM: f64 = 0.7;
 
 /// What is read of the attractors.
 pub fn reads(model: &'static Description) -> Names {
@@ -34,7 +30,7 @@ pub fn of_attractors(model: &'static Description) -> Vec<Entry> {
 pub struct SectionPoint {
     at: (f64, f64),
     /// The colour of the attractor.
-    colour: RGBColor,
+    pub colour: RGBColor,
 }
 
 /// The section points of the periodic attractors, by attractor, where the section is at the phase of the starts.
@@ -94,7 +90,7 @@ pub fn behind(panel: &Panel, points: &[SectionPoint], saddles: &[(f64, f64)]) ->
     let points = points.iter().map(|it| it.at).chain(saddles.iter().copied());
     let places: Vec<Point> = panel.places(&points.collect::<Vec<_>>());
     let is_behind = |(place, at): &(usize, &Point)| {
-        places[place + 1..].iter().any(|it| (it.0 - at.0).hypot(it.1 - at.1) < RADIUS)
+        places[place + 1..].iter().any(|it| (it.0 - at.0).hypot(it.1 - at.1) < POINT_RADIUS)
     };
     places.iter().enumerate().filter(is_behind).count()
 }
@@ -104,9 +100,7 @@ pub fn draw_section_points(canvas: &mut Canvas, panel: &Panel, points: &[Section
     canvas.clipped(panel.frame, |canvas| {
         for point in points {
             let at = panel.place(point.at.0, point.at.1);
-            canvas.discs(&[(at, PAPER)], RADIUS + RIM);
-            canvas.discs(&[(at, INK)], RADIUS);
-            canvas.discs(&[(at, point.colour)], RADIUS - RIM);
+            rimmed_disc(canvas, at, point.colour);
         }
     });
     panel.record(canvas, "section points of the attractors", points.iter().map(|it| it.at));
@@ -117,8 +111,8 @@ pub fn draw_saddles(canvas: &mut Canvas, panel: &Panel, saddles: &[(f64, f64)]) 
     canvas.clipped(panel.frame, |canvas| {
         for (x, y) in saddles {
             let at = panel.place(*x, *y);
-            canvas.discs(&[(at, PAPER)], RADIUS + RIM);
-            canvas.rings(&[at], RADIUS, Stroke::solid(INK, 2.0 * RIM));
+            canvas.discs(&[(at, PAPER)], POINT_RADIUS + POINT_RIM);
+            canvas.rings(&[at], POINT_RADIUS, Stroke::solid(INK, 2.0 * POINT_RIM));
         }
     });
 }

@@ -14,8 +14,8 @@ use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
-use super::section_points::{self, RADIUS, SectionPoint, draw_section_points, section_points};
-use super::style::{INFERRED, INK, NOT_YET};
+use super::section_points::{self, SectionPoint, draw_section_points, section_points};
+use super::style::{INFERRED, NOT_YET};
 use super::text::Text;
 use super::view::View;
 use crate::description::Description;
@@ -99,9 +99,9 @@ impl<'a> Settling<'a> {
 
     fn legend(&self) -> Vec<header::Entry> {
         let mut legend = Vec::new();
-        if !self.points.is_empty() {
+        if let Some(point) = self.points.first() {
             let text = "section points of the attractors";
-            legend.push((Mark::Disc(INK, RADIUS), Text::plain(text)));
+            legend.push((Mark::Rimmed(point.colour), Text::plain(text)));
         }
         if self.inferred.contains(&true) {
             legend.push((Mark::Patch(INFERRED), Text::plain("inferred, not followed")));

@@ -83,7 +83,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         }
         panel.finish(&mut canvas);
     }
-    Ok(canvas.finish(&view.about(&[ATTRACTOR_SHARE.name.to_owned()], &[along])))
+    Ok(canvas.finish(&format!("{} over {along}", ATTRACTOR_SHARE.name)))
 }
 
 /// The parameter along which attractors are numbered, where all other axes are coordinates of the start.

@@ -101,6 +101,10 @@ pub const ATTRACTORS: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(136, 34, 85),
 ];
+/// Radius of a section point over an area [pt].
+pub const POINT_RADIUS: f64 = 2.4;
+/// Width of its rim [pt].
+pub const POINT_RIM: f64 = 0.7;
 /// Attractors beyond these.
 pub const OTHER_ATTRACTOR: RGBColor = RGBColor(90, 90, 90);
 /// Points of cases without a known attractor.

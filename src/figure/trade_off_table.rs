@@ -41,23 +41,32 @@ pub fn table(
     let each = fronts.iter().flat_map(|front| front.best.iter().map(move |best| (front, best)));
     for (front, best) in each {
         let motions = &front.motions;
+        // Of symbols at one point the upper one is seen: a row tells all that its motion is best in.
+        let mut rows: Vec<(Vec<Symbol>, &Candidate)> = Vec::new();
         for (symbol, motion) in marked(motions, best).into_iter().rev() {
+            match rows.iter_mut().find(|it| it.1 == motion) {
+                Some(row) => row.0.push(symbol),
+                None => rows.push((vec![symbol], motion)),
+            }
+        }
+        for (symbols, motion) in rows {
             let cells = columns.iter().map(|column| (column.cell)(motions, motion)).collect();
             let letter = front.letter.map_or(String::new(), |letter| format!(" ({letter})"));
-            let name = Text::plain(&(name(symbol, motions, best, motion) + &letter));
-            table.rows.push(Row { mark: Mark::Symbol(symbol), name, cells });
+            let name = Text::plain(&(name(&symbols, motions, best, motion) + &letter));
+            table.rows.push(Row { mark: Mark::Symbol(symbols[0]), name, cells });
         }
     }
     table.headings = columns.into_iter().map(|column| column.heading).collect();
     Ok(table)
 }
 
-fn name(symbol: Symbol, motions: &Motions<'_>, best: &Best, motion: &Candidate) -> String {
+fn name(symbols: &[Symbol], motions: &Motions<'_>, best: &Best, motion: &Candidate) -> String {
     let refined = motions.refined(motion);
     let mean = if motions.is_periodic(motion) { "" } else { ", mean" };
     let between = if refined.is_some() { BETWEEN } else { "" };
     let open = if refined.is_some_and(RefinedMotion::is_open) { OPEN } else { "" };
-    format!("{}, {}{mean}{between}{open}", symbol.words, best.direction.name())
+    let words: Vec<&str> = symbols.iter().map(|it| it.words).collect();
+    format!("{}, {}{mean}{between}{open}", words.join(" and "), best.direction.name())
 }
 
 fn columns<'v>(
