@@ -1,15 +1,17 @@
 //! `capsulemap check`: what is wrong in a study or a system, or what follows from it.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::failure::Failure;
 use super::readable::counted;
+use super::rehearsal::rehearse_study;
 use super::terminal::print;
 use crate::campaign::{is_system_alone, read_study, read_system};
 use crate::description::Description;
+use crate::figure::Place;
 use crate::quantity::printable::printable;
 use crate::study::{Coordinate, Study};
 
@@ -34,6 +36,10 @@ impl Check {
             true => read_system(&self.file)?,
             false => {
                 let study = read_study(&self.file)?;
+                // Where a figure exists already is no fault of the study.
+                let place = Place { folder: Path::new("."), formats: &[], overwrite: true };
+                let drawn = rehearse_study(&study, &place);
+                drawn.map_err(|it| it.within(&printable(&self.file).to_string()))?;
                 text.push_str(&of_study(&study));
                 study.base.model()
             }

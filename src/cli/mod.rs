@@ -39,6 +39,7 @@ mod phases;
 mod progress;
 mod ramp_summary;
 mod readable;
+mod rehearsal;
 mod recording_form;
 mod report;
 mod scheduler;

@@ -7,9 +7,10 @@ use std::time::Duration;
 use clap::Args;
 
 use super::arguments::{machine, named, study_arguments};
-use super::drawing::{FormatChoice, draw_from, formats, rehearse};
+use super::drawing::{FormatChoice, draw_from, formats};
 use super::dry_run::estimate;
 use super::failure::Failure;
+use super::rehearsal::rehearse_study;
 use super::scheduler::{self, AskedTask};
 use super::stop::before_end;
 use super::terminal::notify;
@@ -20,10 +21,8 @@ use crate::campaign::{
 use crate::figure::Place;
 use crate::lane::Instructions;
 use crate::quantity::printable::printable;
-use crate::run::{AttractorTable, Attractors, has_attractors};
-use crate::store::{self, Dataset, folder};
+use crate::store::folder;
 use crate::study::Study;
-use crate::study::layout::linked_axis;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -38,9 +37,6 @@ A run that was interrupted is resumed by the same command. Without --task, an el
 Batch takes its part by itself. PBS, Torque and indexed jobs of Kubernetes do not say how many elements there are: \
 --task $PBS_ARRAY_INDEX/8. The same goes for HyperQueue ($HQ_TASK_ID) and GNU parallel ($PARALLEL_SEQ). scripts/slurm, scripts/pbs and \
 scripts/kubernetes have array scripts. Processes with --claim share a study without numbers; capsulemap help book clusters shows how.";
-
-/// More values on an axis than this are alike to every figure.
-const MOST_VALUES: usize = 16;
 
 /// Compute a study.
 #[derive(Debug, Args)]
@@ -170,8 +166,8 @@ impl Sweep {
         if self.no_figures {
             return Ok(());
         }
-        let drawn = rehearse(&without_cases(study), study, place);
-        drawn.map_err(|failure| failure.within(&printable(&self.study).to_string()))
+        rehearse_study(study, place)
+            .map_err(|failure| failure.within(&printable(&self.study).to_string()))
     }
 
     /// Which part of the study to compute.
@@ -222,23 +218,4 @@ impl Sweep {
             "{task}: its blocks are in {shown}; once all tasks are done: capsulemap join {join}"
         ));
     }
-}
-
-/// The results of a study of which no case is done, with no more values than figures look at, as each has
-/// room for what its cases would have.
-fn without_cases(study: &Study) -> Dataset {
-    let mut small = study.clone();
-    small.protocol.points = small.protocol.points.min(1);
-    small.protocol.impact_points = small.protocol.impact_points.min(1);
-    small.case_set.truncate(MOST_VALUES);
-    if let Some(span) = &mut small.protocol.history {
-        span.per_cycle = span.per_cycle.min(2);
-    }
-    let mut dataset = store::dataset(&small, &[]);
-    if has_attractors(&small) {
-        let (axis, of_case) = (linked_axis(&small), vec![None; small.cases()]);
-        let unknown = Attractors { axis, of_case, ..Attractors::default() };
-        store::add_attractors(&mut dataset, &small, &unknown, &AttractorTable::default());
-    }
-    dataset
 }

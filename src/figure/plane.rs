@@ -51,15 +51,20 @@ pub struct Plane<'a> {
 impl<'a> Plane<'a> {
     /// The axes that the request names, or else the first that are free; `what` needs them.
     pub fn of(view: &View<'a>, what: &str) -> Result<Plane<'a>, FigureError> {
-        let (x_name, y_name) = axes(view, what)?;
+        Plane::of_first(view, what, &[])
+    }
+
+    /// The same, where axes of these names go first.
+    fn of_first(view: &View<'a>, what: &str, first: &[&str]) -> Result<Plane<'a>, FigureError> {
+        let (x_name, y_name) = axes(view, what, first)?;
         Ok(Plane { x_name, y_name, x: cells(view, x_name)?, y: cells(view, y_name)? })
     }
 
     /// The same where both are coordinates of a start; `lies` says of the figure that it must lie over such.
     pub fn of_starts(view: &View<'a>, what: &str, lies: &str) -> Result<Plane<'a>, FigureError> {
-        let plane = Plane::of(view, what)?;
         let of_starts: Vec<&str> =
             starts(view.model()).into_iter().map(|entry| entry.name).collect();
+        let plane = Plane::of_first(view, what, &of_starts)?;
         if let Some(name) = plane.names().into_iter().find(|name| !of_starts.contains(name)) {
             let allowed = of_starts.join(", ");
             let why = format!("{lies} over two of {allowed}, and `{name}` is none of these");
@@ -221,9 +226,14 @@ pub(super) fn cells(view: &View<'_>, name: &str) -> Result<Cells, FigureError> {
     }
 }
 
-/// The axes along the abscissa and the ordinate.
-fn axes<'a>(view: &View<'a>, what: &str) -> Result<(&'a str, &'a str), FigureError> {
-    let free = view.drawable_axes();
+/// The axes along the abscissa and the ordinate: those that the request names, or else the first that are free, of `first` before others.
+fn axes<'a>(
+    view: &View<'a>,
+    what: &str,
+    first: &[&str],
+) -> Result<(&'a str, &'a str), FigureError> {
+    let mut free = view.drawable_axes();
+    free.sort_by_key(|name| !first.contains(name));
     let [x, y] = [&view.drawing.x, &view.drawing.y].map(|name| {
         let name = name.as_ref()?;
         view.axes().into_iter().find(|axis| axis == name)

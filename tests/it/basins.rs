@@ -128,6 +128,20 @@ fn the_file_has_the_table_along_its_own_dimension() {
 }
 
 #[test]
+fn a_figure_that_a_study_cannot_have_is_a_fault_of_the_study() {
+    let work = WorkDir::new();
+    let axes = "[[axes]]\nname = \"omega\"\nvalues = [\"153 rad/s\", \"158 rad/s\"]\n\
+                [[axes]]\nname = \"start_y1\"\nvalues = [\"0 m/s\", \"1 m/s\"]\n";
+    let figure = "[[figures]]\nname = \"basin\"\nkind = \"basin\"\n";
+    work.put("one.toml", format!("{TWO_MOTIONS}{axes}{figure}"));
+    let told = "figure `basin`: basins lie over two of start_r, start_y1, start_y2, and `omega` is none of these";
+    for command in ["check", "sweep"] {
+        work.run(&[command, "one.toml"]).refused(&[told]);
+    }
+    assert!(!work.path("results").exists(), "nothing is computed");
+}
+
+#[test]
 fn basins_are_drawn_over_starts_alone() {
     let folder = WorkDir::new();
     let axes = "[[axes]]\nname = \"start_r\"\nvalues = [\"0 mm\", \"1 mm\"]\n\
@@ -307,4 +321,11 @@ fn a_figure_of_basins_tells_the_shares_at_the_value_that_is_held() {
         told.push(shares);
     }
     assert!((told[0][0] - told[1][0]).abs() > 0.05, "the shares differ: {told:?}");
+    // Where it is not held, the first value is shown, over the starts.
+    work.shell("\"$0\" figure two.h5 --kind basin --name first --folder . --formats svg").done();
+    let [first, held] = ["first", "b153"].map(|name| {
+        let svg = fs::read_to_string(work.path(&format!("{name}.svg"))).expect("a figure");
+        svg.split_once("attractor 0: ").expect("a legend").1.split(';').next().map(str::to_owned)
+    });
+    assert_eq!(first, held);
 }
