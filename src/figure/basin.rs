@@ -184,7 +184,9 @@ impl<'a> Basins<'a> {
         let mut legend = Vec::new();
         if let Some(point) = self.points.first() {
             let more = if is_projected { ", projected onto the plane" } else { "" };
-            let words = Text::plain(&format!("section points of the orbits{more}"));
+            let are_several = self.points.iter().any(|it| it.colour != point.colour);
+            let of = if are_several { "orbits in their colours" } else { "orbits" };
+            let words = Text::plain(&format!("section points of the {of}{more}"));
             legend.push((Mark::Rimmed(point.colour), words));
         }
         if !self.saddles.is_empty() {

@@ -131,7 +131,7 @@ impl Thinned {
     /// How many of each kind are left out, in words.
     fn told(&self) -> String {
         let each = self.left_out.iter();
-        let each = each.map(|(special, count)| format!("{count} × {}", special.words()));
+        let each = each.map(|(special, count)| format!("{count}\u{a0}×\u{a0}{}", special.words()));
         each.collect::<Vec<_>>().join(", ")
     }
 }
