@@ -140,7 +140,7 @@ async function check(page, scheme) {
   view.pdf = bytes.subarray(0, 4).toString();
   found.views[scheme] = view;
   found.hash = new URL(page.url()).hash.slice(1).replace(/&?pane=[^&]*/, "").replace(/&?basin=[^&]*/, "");
-  await steps(page);
+  await steps(page, scheme);
 }
 
 /** A condition that the page must meet. */
@@ -172,7 +172,7 @@ async function widths(state, scheme) {
 }
 
 /** Steps are undone and done again, the tabs follow the arrows, colours go into the command, and the end of a line is dragged. */
-async function steps(page) {
+async function steps(page, scheme) {
   await page.click("#data-tab");
   await page.keyboard.press("ArrowRight");
   must(await page.getAttribute("#motion-tab", "aria-selected") === "true", "the arrows do not go around the tabs");
@@ -201,12 +201,13 @@ async function steps(page) {
   await page.waitForFunction((old) => [...document.querySelectorAll("#line-form input")].some((it, i) => Number(it.value) !== old[i]), old);
   const now = await ends();
   must(now[0] === old[0] && now[1] === old[1] && now[2] < old[2] && now[3] > old[3], `the end of the line is not where it was dragged: ${old} to ${now}`);
-  await units(page, now);
+  await units(page, now, scheme);
 }
 
 /** Other units are those of the map, of the forms and of the command, and go again where they are undone. */
-async function units(page, ends) {
-  const loaded = () => page.waitForSelector("#motions[data-milliseconds]");
+async function units(page, ends, scheme) {
+  // Another view may be in front.
+  const loaded = () => page.waitForSelector("#motions[data-milliseconds]", { state: "attached" });
   const chosen = () => page.evaluate(() => [...document.querySelectorAll("#line-form input")].map((it) => Number(it.value)));
   await page.click("#units-button");
   await page.selectOption("#units-form select[name=unit-0]", "Hz");
@@ -217,7 +218,7 @@ async function units(page, ends) {
   must(Math.abs(from * turn / ends[0] - 1) < 1e-9 && Math.abs(to * turn / ends[2] - 1) < 1e-9, `the line is not told in hertz: ${from} to ${to}`);
   must((await page.getAttribute("#map", "aria-label")).includes("Hz"), "the map is not in hertz");
   await page.click("#units-button");
-  await look(page, "light", "units");
+  await look(page, scheme, "units");
   await Promise.all([page.waitForEvent("load"), page.click("#undo-button")]);
   await loaded();
   must(await command(page, "--unit") === null, "the unit stays where it is undone");

@@ -61,6 +61,7 @@ const OTHERS: [(&str, &[&str], &str); 27] = [
     ("src/cli/claim_text.rs", &["block"], "a word of a message"),
     ("src/cli/manifold_list.rs", &["attractor", "curve"], "keys, and words of a message"),
     ("crates/engine/src/attractor/manifold.rs", &["attractor"], "why a manifold ends"),
+    ("src/explore/server/units.rs", &["g"], "a unit"),
     ("src/cli/dry_run.rs", &["block"], "a word of a message"),
     ("src/cli/join.rs", &["block"], "a word of a message"),
     ("src/cli/status.rs", &["block"], "a word of a message"),

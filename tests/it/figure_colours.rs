@@ -79,7 +79,7 @@ fn symbols_that_would_overlap_and_cases_that_are_not_computed_are_counted() {
     let (svg, csv) = drawn(&two_attractors().0, &diagram());
     let words = labels(&svg);
     let told = |part: &str| assert!(words.iter().any(|it| it == part), "{part}: {words:?}");
-    told("left out where symbols would overlap: 2\u{a0}×\u{a0}period doubling");
+    told("left out where symbols would overlap: 2 × period doubling");
     told("not yet computed: 4 of 24");
     // The data have all of them.
     assert_eq!(csv.matches("1,period doubling,").count(), 3, "{csv}");

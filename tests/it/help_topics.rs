@@ -61,10 +61,14 @@ fn unknown_topics_say_what_there_is() {
     for (words, told) in [
         (
             &["sweeep"][..],
-            "unknown topic \"sweeep\"; did you mean \"sweep\"? (allowed: a command, study, output, unit or book)",
+            "unknown topic \"sweeep\"; did you mean \"sweep\"? (allowed: a command; study, output, unit or book and a name; answers to errors: capsulemap help book errors)",
         ),
         (&["study", "refin"], "unknown key or table of a study \"refin\""),
         (&["output", "speed"], "unknown output \"speed\""),
+        (
+            &["unit", "furlong"],
+            "unknown unit \"furlong\" (allowed: capsulemap help unit lists them)",
+        ),
         (&["book", "pages"], "unknown page \"pages\""),
         (&["sweep", "join"], "one topic at a time"),
     ] {
