@@ -159,7 +159,7 @@ const COMMANDS: &[(&[&str], &[&str])] = &[
     (&["help", "study", "basin.erly_decision"], &["\"erly_decision\"; did you mean \"early_decision\"?"]),
     (&["help", "output", "powr"], &["unknown output \"powr\"; did you mean \"power\"?"]),
     (&["help", "book", "tradeof"], &["unknown page \"tradeof\"; did you mean \"tradeoff\"? (allowed: capsulemap help book lists them)"]),
-    (&["help", "swep"], &["unknown topic \"swep\"; did you mean \"sweep\"? (allowed: a command, study, output, unit or book)"]),
+    (&["help", "swep"], &["unknown topic \"swep\"; did you mean \"sweep\"? (allowed: a command; study, output, unit or book and a name; answers to errors: capsulemap help book errors)"]),
     (&["frobnicate"], &["unrecognized subcommand 'frobnicate'"]),
     (&["sweep"], &["required arguments were not provided", "<STUDY>"]),
 ];
