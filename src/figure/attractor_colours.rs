@@ -12,7 +12,7 @@ use crate::study::{AttractorColours, Colour, Coordinate};
 
 /// How much paper the colour of a basin has, so that the points of its attractor stand out.
 const TINT: f64 = 0.45;
-/// The same of the colours that figures choose: the least distance of two in CIELAB is 20, also to eyes that take red for green, and the first
+/// The same of the colours that figures choose: two of them differ by 19 or more in CIELAB, also to eyes without green cones, and the first
 /// three can be told apart in grey.
 const TINTS: [f64; ATTRACTORS.len()] = [0.30, 0.60, 0.80, 0.20, 0.10, 0.35, 0.20];
 
@@ -154,6 +154,53 @@ mod tests {
         let of_three = [0, 1, 2].map(|number| grey(tinted(ATTRACTORS[number])));
         for (a, b) in [(0, 1), (0, 2), (1, 2)] {
             assert!((of_three[a] - of_three[b]).abs() > 25.0, "{of_three:?}");
+        }
+    }
+
+    /// A colour in linear red, green and blue.
+    fn linear(RGBColor(red, green, blue): RGBColor) -> [f64; 3] {
+        [red, green, blue].map(|channel| {
+            let share = f64::from(channel) / 255.0;
+            if share <= 0.04045 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+        })
+    }
+
+    /// The product of a matrix and a colour.
+    fn times(matrix: [[f64; 3]; 3], colour: [f64; 3]) -> [f64; 3] {
+        matrix.map(|row| row.iter().zip(colour).map(|(a, b)| a * b).sum())
+    }
+
+    /// What eyes without green cones see, by the matrix of Machado, Oliveira and Fernandes (2009).
+    fn without_green_cones(colour: [f64; 3]) -> [f64; 3] {
+        let seen = [
+            [0.367322, 0.860646, -0.227968],
+            [0.280085, 0.672501, 0.047413],
+            [-0.011820, 0.042940, 0.968881],
+        ];
+        times(seen, colour).map(|it| it.clamp(0.0, 1.0))
+    }
+
+    /// A colour in CIELAB under the daylight D65.
+    fn lab(colour: [f64; 3]) -> [f64; 3] {
+        let to_xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]];
+        let [x, y, z] = times(to_xyz, colour);
+        let [x, y, z] = [x / 0.9505, y, z / 1.089].map(|share| {
+            if share > 0.008856 { share.cbrt() } else { 7.787 * share + 16.0 / 116.0 }
+        });
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    #[test]
+    fn basins_are_told_apart_without_green_cones_as_well() {
+        for seen in [|colour| colour, without_green_cones as fn([f64; 3]) -> [f64; 3]] {
+            let all = ATTRACTORS.map(|colour| lab(seen(linear(tinted(colour)))));
+            for (place, a) in all.iter().enumerate() {
+                for b in &all[..place] {
+                    let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
+                    let apart = squares.sum::<f64>().sqrt();
+                    assert!(apart > 19.0, "{place}: {apart}");
+                }
+            }
         }
     }
 

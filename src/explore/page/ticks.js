@@ -14,7 +14,10 @@ export function short(value, digits = 6) {
 }
 
 /** What rounding leaves of a result that is zero, by the unit shown, as in the figures. */
-const NOISE = { "m/s": 1e-10, "mm/s": 1e-7, m: 1e-12, mm: 1e-9, J: 1e-12, mJ: 1e-9, N: 1e-10 };
+const NOISE = {
+  "m/s": 1e-10, "cm/s": 1e-8, "mm/s": 1e-7, "µm/s": 1e-4, m: 1e-12, cm: 1e-10, mm: 1e-9, "µm": 1e-6, in: 4e-11,
+  J: 1e-12, mJ: 1e-9, "µJ": 1e-6, N: 1e-10, mN: 1e-7, kN: 1e-13,
+};
 
 /** A result in the unit shown: "≈ 0" where it is what rounding leaves of zero, a dash where there is none. */
 export function result(value, unit, digits = 5) {
