@@ -32,7 +32,7 @@ const DEFINING: [&str; 8] = [
 ];
 
 /// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
-const OTHERS: [(&str, &[&str], &str); 27] = [
+const OTHERS: [(&str, &[&str], &str); 28] = [
     ("src/study/protocol_file.rs", &["cycles", "attractor"], "keys of a study"),
     ("src/study/study_text.rs", KEYS, "keys of a study"),
     ("src/study/start_file.rs", &["direction"], "keys of a study"),
