@@ -22,6 +22,13 @@ to = "100 kN/m"
 spacing = "logarithmic"
 "#;
 
+/// The page of a map of so many amplitudes and frequencies.
+fn explored_map(work: &WorkDir, cases: [usize; 2]) -> Explorer {
+    work.put("map.toml", coarse_overview(cases));
+    work.run(&["sweep", "map.toml", "--output", "map.h5", "--no-figures"]).done();
+    Explorer::new(work, &["map.h5"])
+}
+
 #[test]
 fn draws_are_told_with_what_came_of_them() {
     let work = WorkDir::new();
@@ -54,9 +61,7 @@ fn draws_are_told_with_what_came_of_them() {
     assert_eq!(file["draws"][1]["name"], "k2");
 
     // Of a grid there is nothing to tell.
-    work.put("map.toml", coarse_overview([3, 5]));
-    work.run(&["sweep", "map.toml", "--output", "map.h5", "--no-figures"]).done();
-    let explorer = Explorer::new(&work, &["map.h5"]);
+    let explorer = explored_map(&work, [3, 5]);
     let refused = explorer.get("/api/draws");
     assert!(refused.status == 400 && refused.text().contains("not drawn"), "{}", refused.text());
     assert_eq!(explorer.object("/api/file")["draws"], serde_json::json!([]));
@@ -65,9 +70,7 @@ fn draws_are_told_with_what_came_of_them() {
 #[test]
 fn a_saved_map_has_the_colours_that_the_page_sets() {
     let work = WorkDir::new();
-    work.put("map.toml", coarse_overview([5, 9]));
-    work.run(&["sweep", "map.toml", "--output", "map.h5", "--no-figures"]).done();
-    let explorer = Explorer::new(&work, &["map.h5"]);
+    let explorer = explored_map(&work, [5, 9]);
     let map = "/api/figure?kind=map&of=progression_speed&x=omega&y=p_d&format=svg";
     let asked = explorer.get(&format!("{map}&colour-map=cividis&scale=symlog&limits=-2,5"));
     assert_eq!(asked.status, 200, "{}", asked.text());
@@ -109,9 +112,7 @@ fn a_saved_map_has_the_colours_that_the_page_sets() {
 #[test]
 fn the_units_of_the_page_are_those_of_its_maps_and_of_saved_figures() {
     let work = WorkDir::new();
-    work.put("map.toml", coarse_overview([5, 9]));
-    work.run(&["sweep", "map.toml", "--output", "map.h5", "--no-figures"]).done();
-    let explorer = Explorer::new(&work, &["map.h5"]);
+    let explorer = explored_map(&work, [5, 9]);
     let units = "units=Hz,mN,cm/s";
     let [usual, chosen] =
         ["", units].map(|it| explorer.object(&format!("/api/file?{it}"))["axes"].clone());

@@ -49,10 +49,14 @@ impl Units {
         Ok(Units(chosen))
     }
 
+    /// The unit of a dimension; none where that is as usual.
+    fn of_dimension(&self, dimension: Dimension) -> Option<&'static str> {
+        self.0.iter().find(|it| it.0 == dimension).map(|it| it.1)
+    }
+
     /// The unit in which the quantity called `name` is to be shown; none where that is as usual.
     fn unit(&self, name: &str, explored: &Explored) -> Option<&'static str> {
-        let dimension = dimension_of(name, explored.model()).ok()?;
-        self.0.iter().find(|it| it.0 == dimension).map(|it| it.1)
+        self.of_dimension(dimension_of(name, explored.model()).ok()?)
     }
 
     /// How the quantity called `name` is shown.
@@ -62,8 +66,8 @@ impl Units {
 
     /// The same as an object, with the unit that was asked for.
     pub fn json(&self, name: &str, explored: &Explored) -> Value {
-        let it = self.shown(name, explored);
         let asked = self.unit(name, explored);
+        let it = shown_quantity(name, explored.archive.frame(), asked);
         json!({ "name": name, "label": it.label, "unit": it.unit, "factor": it.factor, "asked": asked })
     }
 
@@ -79,7 +83,7 @@ impl Units {
     /// Sets the units of a figure, of all that it may show.
     pub fn set(&self, settings: &mut Settings, explored: &Explored) {
         for (name, dimension) in quantities(explored.model()) {
-            if let Some((_, unit)) = self.0.iter().find(|it| it.0 == dimension) {
+            if let Some(unit) = self.of_dimension(dimension) {
                 settings.entry(name.to_owned()).or_default().unit = Some(unit);
             }
         }
@@ -89,10 +93,7 @@ impl Units {
     pub fn offered(&self, explored: &Explored) -> Vec<Value> {
         let known = quantities(explored.model());
         let occurring = OFFERED.iter().filter(|it| known.iter().any(|known| known.1 == it.0));
-        let one = |(dimension, words, units): &(Dimension, &str, &[&str])| {
-            let now = self.0.iter().find(|it| it.0 == *dimension).map(|it| it.1);
-            json!({ "words": words, "units": units, "now": now })
-        };
+        let one = |(dimension, words, units): &(Dimension, &str, &[&str])| json!({ "words": words, "units": units, "now": self.of_dimension(*dimension) });
         occurring.map(one).collect()
     }
 }
